@@ -2,12 +2,12 @@
 
 use super::hands::Hands;
 use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
-use super::model::opening::{FileRequest, OpeningPurpose};
+use super::model::opening::{FileRequest, Opening, OpeningPurpose};
 use super::model::ordering::Seen;
 use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
 use super::model::{Action, Model, Task, update};
-use super::panels::{audit_panel, map_window, search_window, side_panels, tier_table};
+use super::panels::{audit_panel, map_window, row_focus, rows, search_window, side_panels, tier_table};
 use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
@@ -89,9 +89,14 @@ impl Editor {
             painted_by: setup.painted_by,
             model,
         };
-        let last = || editor.model.workspace.last.clone().filter(|p| p.exists());
-        if let Some(path) = setup.file.or_else(last) {
-            editor.act(first(path, setup.mesh));
+        let is_there = |path: &PathBuf| path.exists();
+        let last = editor.outside.last().filter(|found| found.path.as_ref().is_none_or(is_there));
+        let last_file = editor.model.workspace.last.clone().filter(is_there);
+        match (setup.file, last, last_file) {
+            (Some(path), ..) => editor.act(first(path, setup.mesh)),
+            (None, Some(found), _) => editor.act(FileAction::Restore(Box::new(found))),
+            (None, None, Some(path)) => editor.act(first(path, setup.mesh)),
+            (None, None, None) => {}
         }
         editor.act(editor.outside.found());
         Ok(editor)
@@ -244,6 +249,12 @@ impl Editor {
     /// Draws the window and carries out the user's actions.
     pub(super) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
+        row_focus::begin(&ctx);
+        if self.model.session.dialog.is_some() {
+            // Nothing below a dialog answers the hand, and no tooltip of it stays over the dialog.
+            ui.visuals_mut().disabled_alpha = 1.0;
+            ui.disable();
+        }
         self.take_in();
         self.take_in_input();
         self.run();
@@ -251,7 +262,9 @@ impl Editor {
         self.run();
         self.views.paper = theme::paper(&ctx);
         menus::bar(&self.model, &mut self.actions, ui);
-        menus::status(&self.model.session, &self.studio, self.painted_by, ui);
+        let state = self.state();
+        let painters = (self.studio.device_name(), self.painted_by);
+        menus::status(&self.model.session, &state, painters, ui);
         self.run();
         if !self.model.workspace.hides_panels && !self.model.is_at_bench() {
             side_panels::show(&self.model, &mut self.actions, ui);
@@ -280,17 +293,38 @@ impl Editor {
         self.order(&seen);
         self.name_window();
         self.publish_state();
+        if self.state() != state {
+            // The status line of this frame was drawn before the new order.
+            ctx.request_repaint();
+        }
+    }
+
+    /// Returns in a word or two what the window waits for.
+    fn state(&self) -> String {
+        let session = &self.model.session;
+        let opening = session.awaited.opening.last().map(Opening::message);
+        let lighting = || session.light.loading.as_ref().map(|_| "loading the light…".to_owned());
+        opening.or_else(|| self.studio.preparing()).or_else(lighting).unwrap_or_else(|| {
+            let is_busy = !self.studio.is_idle() || self.outside.is_looking_up();
+            let state = match (is_busy, self.studio.sharpens()) {
+                (true, _) => "tracing…",
+                (false, true) => "sharpening…",
+                (false, false) => "done",
+            };
+            state.to_owned()
+        })
     }
 
     fn end_frame(&mut self) {
-        let fitted = Arc::clone(self.model.session.framing.fitted());
+        let fits = self.model.session.framing.fits();
         let is_gesture = self.views.is_handle_dragged()
             || self.ctx.egui_is_using_pointer()
-            || self.ctx.text_edit_focused();
+            || self.ctx.text_edit_focused()
+            || rows::may_be_reset(&self.ctx);
         let now = self.ctx.input(|i| i.time);
         self.run();
         self.act(Action::Frame(FrameEnd { now, is_gesture }));
-        if !Arc::ptr_eq(&fitted, self.model.session.framing.fitted()) {
+        if fits != self.model.session.framing.fits() {
             // The views of this frame were laid out for the stone as it was fitted before.
             self.ctx.request_repaint();
         }
@@ -322,9 +356,9 @@ fn first(path: PathBuf, mesh: crate::io::mesh_options::MeshOptions) -> FileActio
     let name = path.to_string_lossy().into_owned();
     let is_file = Path::is_file(&path);
     if !is_file && library::scene(&name).is_some() {
-        FileAction::Ask(Then::Preset(name.to_lowercase()))
+        FileAction::Begin(Then::Preset(name.to_lowercase()))
     } else if !is_file && library::cut(&name).is_some() {
-        FileAction::Ask(Then::Library(name))
+        FileAction::Begin(Then::Library(name))
     } else {
         FileAction::OpenWith(FileRequest { purpose: OpeningPurpose::Anew, path, mesh })
     }

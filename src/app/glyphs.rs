@@ -1,8 +1,12 @@
-//! Signs that the fonts of the window lack.
+//! Signs and letters that the fonts of the window lack.
 
+use crate::io::SystemFont;
+use egui::FontData;
+use egui::epaint::text::{FallbackRequest, FontInsert, FontPriority, FontProvider, InsertFontFamily};
 use egui::{
     Color32, ColorImage, GlyphBitmap, GlyphRasterizer, GlyphRasterizerRequest, RasterizedGlyph, vec2,
 };
+use std::sync::Arc;
 
 /// The sign on egui's button that copies the numbers of a colour.
 const CLIPBOARD: &str = "\u{1f4cb}";
@@ -17,6 +21,17 @@ const POINTS: usize = 4;
 pub fn signs() -> GlyphRasterizer {
     GlyphRasterizer::new("brillianteer signs", |request: &GlyphRasterizerRequest| {
         (request.cluster == CLIPBOARD).then(|| clipboard(request.font_size_px))
+    })
+}
+
+/// Returns what finds fonts of the system for letters that the window's own fonts lack, as in the name of a design.
+pub fn fonts_of_system() -> Arc<dyn FontProvider> {
+    Arc::new(|request: &FallbackRequest<'_>| {
+        let letter = request.cluster.chars().next().filter(|_| request.cluster != CLIPBOARD)?;
+        let SystemFont { name, data, index } = SystemFont::with(letter)?;
+        let data = FontData { index, ..FontData::from_owned(data) };
+        let family = InsertFontFamily { family: request.family.clone(), priority: FontPriority::Lowest };
+        Some(FontInsert::new(&name, data, vec![family]))
     })
 }
 

@@ -1,7 +1,7 @@
 //! Sorts the user's input before the window handles it, so that no quick drag is lost where frames are slow, and
 //! letters pressed together with Alt are not typed.
 
-use egui::{Context, Event, Modifiers, Plugin, RawInput};
+use egui::{Context, Event, Key, Modifiers, Plugin, RawInput};
 
 /// A queue that holds events back for the frames to come.
 #[derive(Default)]
@@ -9,7 +9,12 @@ pub struct Hands {
     later: Vec<Event>,
     /// True while Alt is down without Ctrl; letters then open menus.
     is_alt: bool,
+    /// The number of frames to come that get no events.
+    pause: u8,
 }
+
+/// The frames that egui and rows take to pass the focus on after the frame with Tab, and those after the frame with Shift+Tab.
+const PASSING: [u8; 2] = [1, 3];
 
 impl Plugin for Hands {
     fn debug_name(&self) -> &'static str {
@@ -19,8 +24,12 @@ impl Plugin for Hands {
     fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
         let mut events = std::mem::take(&mut self.later);
         events.extend(input.events.drain(..).filter(|event| self.is_meant(event)));
-        let end = first_part(&events);
+        let end = if self.pause > 0 { 0 } else { first_part(&events) };
+        self.pause = self.pause.saturating_sub(1);
         self.later = events.split_off(end);
+        if let Some(modifiers) = events.iter().find_map(tab) {
+            self.pause = PASSING[usize::from(modifiers.shift)];
+        }
         input.events = events;
         if !self.later.is_empty() {
             ctx.request_repaint();
@@ -53,14 +62,26 @@ fn opens_menus(modifiers: &Modifiers) -> bool {
     modifiers.alt && !modifiers.ctrl && !cfg!(target_os = "macos")
 }
 
+/// Returns the modifiers of an event that presses Tab.
+fn tab(event: &Event) -> Option<&Modifiers> {
+    match event {
+        Event::Key { key: Key::Tab, pressed: true, modifiers, .. } => Some(modifiers),
+        _ => None,
+    }
+}
+
 /// Returns how many of the events one frame handles.
 ///
-/// egui looks for what is under a press where the pointer is at the end of the frame, and a drag is over with its release.
+/// egui moves the focus by Tab when a frame begins, and then gives all text of the frame to what has the focus. So Tab has a frame
+/// of its own, and text goes to the field in which it was typed, where frames are slow. egui looks for what is under a press where the pointer is at the end of the frame, and a drag is over with its release.
 /// So a frame ends with a press that the pointer moves on from, and before a release that the pointer has moved to.
 fn first_part(events: &[Event]) -> usize {
     let is_moved = |event: &Event| matches!(event, Event::PointerMoved(_));
     let mut has_moved = false;
     for (place, event) in events.iter().enumerate() {
+        if tab(event).is_some() {
+            return place.max(1);
+        }
         match event {
             Event::PointerMoved(_) => has_moved = true,
             Event::PointerButton { pressed: true, .. } => {
@@ -84,7 +105,7 @@ fn is_release(event: &Event) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use egui::{Key, PointerButton, pos2};
+    use egui::{PointerButton, pos2};
 
     fn moved(x: f32) -> Event {
         Event::PointerMoved(pos2(x, 0.0))
@@ -121,6 +142,34 @@ mod tests {
         assert_eq!(frames(click.clone()), [click]);
         let typed = vec![Event::Text("a".into()), moved(3.0), Event::Text("b".into())];
         assert_eq!(frames(typed.clone()), [typed]);
+    }
+
+    #[test]
+    fn tab_has_a_frame_of_its_own_and_the_focus_moves_before_more_is_typed() {
+        let press = |modifiers| Event::Key {
+            key: Key::Tab,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers,
+        };
+        let (tab, back) = (press(Modifiers::NONE), press(Modifiers::SHIFT));
+        let text = |text: &str| Event::Text(text.into());
+        let parts = frames(vec![text("1"), text("2"), tab.clone(), text("3"), back.clone(), text("4")]);
+        let none = Vec::new;
+        let typed = vec![text("1"), text("2")];
+        let expected = vec![
+            typed,
+            vec![tab],
+            none(),
+            vec![text("3")],
+            vec![back],
+            none(),
+            none(),
+            none(),
+            vec![text("4")],
+        ];
+        assert_eq!(parts, expected);
     }
 
     #[test]

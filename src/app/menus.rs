@@ -4,14 +4,15 @@ use super::model::Model;
 use super::model::action::{Action, Actions, FileAction};
 use super::model::command::{Command, MENUS, Menu};
 use super::model::dialog::Then;
-use super::model::opening::Opening;
 use super::model::preset::{Known, PRESETS};
 use super::model::session::{HeldKeys, Session};
+use super::panels::row_focus;
+use super::scrolled::scrolled;
 use super::setup::PaintedBy;
-use super::studio::Studio;
 use crate::io::library::SCENES;
 use egui::{
-    Align, Button, Context, Event, Key, Modifiers, Panel, Popup, Response, RichText, ThemePreference, Ui,
+    Align, Button, Context, Event, InnerResponse, Key, Modifiers, Panel, Popup, Response, RichText,
+    ThemePreference, Ui, WidgetText,
 };
 
 /// Draws the menu bar.
@@ -19,8 +20,7 @@ pub fn bar(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     Panel::top("menus").show(ui, |ui| {
         egui::MenuBar::new().ui(ui, |ui| {
             for menu in &MENUS {
-                let shown = ui
-                    .menu_button(menu.title, |ui| within_window(ui, |ui| entries(model, actions, ui, menu)));
+                let shown = menu_button(ui, menu.title, |ui| entries(model, actions, ui, menu));
                 let is_pressed = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
                 if model.session.dialog.is_none() && menu.key().is_some_and(is_pressed) {
                     // The focus lets the arrow keys go on from the opened menu.
@@ -53,12 +53,21 @@ fn title(model: &Model, ui: &mut Ui) {
 /// The space that menus leave free below the bar and above the lower edge of the window, points.
 const AROUND_MENU: f32 = 56.0;
 
+/// Draws the button of a menu or of a menu in a menu.
+pub fn menu_button<R>(
+    ui: &mut Ui,
+    title: impl Into<WidgetText>,
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> InnerResponse<Option<R>> {
+    ui.menu_button(title.into(), |ui| within_window(ui, contents))
+}
+
 /// Draws the contents of a menu, which scroll where the window is lower than they are.
-fn within_window(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+pub fn within_window<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let height = ui.ctx().content_rect().height() - AROUND_MENU;
     // Without this, a menu would be no higher than egui's areas are by default.
     ui.set_max_height(height);
-    egui::ScrollArea::vertical().max_height(height).show(ui, contents);
+    scrolled(ui, "menu", height, contents)
 }
 
 fn entries(model: &Model, actions: &mut Actions, ui: &mut Ui, menu: &Menu) {
@@ -85,7 +94,7 @@ fn themes(ui: &mut Ui) {
         (ThemePreference::Light, "Light"),
     ];
     let name = all.iter().find(|(theme, _)| *theme == now).map_or("Theme", |(_, name)| name);
-    ui.menu_button(format!("Theme: {name}"), |ui| {
+    menu_button(ui, format!("Theme: {name}"), |ui| {
         for (theme, name) in all {
             if ui.selectable_label(now == theme, name).clicked() {
                 ctx.set_theme(theme);
@@ -113,7 +122,7 @@ pub fn choose(actions: &mut Actions, ui: &Ui, entry: &Response, action: impl Int
 
 fn opened_before(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     ui.add_enabled_ui(!model.workspace.recent.is_empty(), |ui| {
-        ui.menu_button("Open recent", |ui| {
+        menu_button(ui, "Open recent", |ui| {
             for path in &model.workspace.recent {
                 let name = path
                     .file_name()
@@ -126,18 +135,18 @@ fn opened_before(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 }
 
 fn scenes_of_glass(actions: &mut Actions, ui: &mut Ui) {
-    ui.menu_button("Scene of glass", |ui| {
-        for Known { name, title, .. } in PRESETS {
+    menu_button(ui, "Scene of glass", |ui| {
+        for Known { name, title, .. } in &PRESETS {
             let about = "A preset that recreates a published demonstration of spectral refraction.";
-            let entry = ui.button(title).on_hover_text(about);
-            choose(actions, ui, &entry, FileAction::Ask(Then::Preset(name.to_owned())));
+            let entry = ui.button(*title).on_hover_text(about);
+            choose(actions, ui, &entry, FileAction::Ask(Then::Preset((*name).to_owned())));
         }
     });
 }
 
 /// The scenes of gems and rings that come with the program.
 fn scenes_of_gems(actions: &mut Actions, ui: &mut Ui) {
-    ui.menu_button("Scene of gems", |ui| {
+    menu_button(ui, "Scene of gems", |ui| {
         let is_glass = |name: &str| PRESETS.iter().any(|known| known.name == name);
         for (name, _) in SCENES.into_iter().filter(|(name, _)| !is_glass(name)) {
             let about = "Several stones, or a ring with its stones. One design is edited; renders show all.";
@@ -155,19 +164,12 @@ fn scene_title(name: &str) -> String {
 }
 
 /// Draws the status line at the bottom of the window.
-pub fn status(session: &Session, studio: &Studio, painted_by: PaintedBy, ui: &mut Ui) {
+pub fn status(session: &Session, state: &str, (device, painted_by): (&str, PaintedBy), ui: &mut Ui) {
     Panel::bottom("status").show(ui, |ui| {
         ui.horizontal(|ui| {
             // The state is laid out first, so that a long message is shortened and does not push it out.
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
-                let opening = session.awaited.opening.last().map(Opening::message);
-                let tracing = match (studio.is_idle(), studio.sharpens()) {
-                    (false, _) => "tracing…",
-                    (true, true) => "sharpening…",
-                    (true, false) => "done",
-                };
-                let state = opening.unwrap_or_else(|| tracing.to_owned());
-                ui.label(RichText::new(format!("{state} · {}", studio.device_name())).weak().small())
+                ui.label(RichText::new(format!("{state} · {device}")).weak().small())
                     .on_hover_text(format!(
                         "The device that computes the pictures: the processor or a graphics card. The {} paints the \
                             window.",
@@ -197,7 +199,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
         let is_meant =
             |c: &Command| c.shortcuts().any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
         let Some(command) = Command::ALL.into_iter().find(is_meant) else { continue };
-        if !modifiers.command && ctx.text_edit_focused() {
+        if !modifiers.command && !is_function(key) && row_focus::holds_keys(ctx) {
             continue;
         }
         // Space presses the button that has the focus, and follows a ray in the picture that has it where there are no copies
@@ -211,11 +213,16 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     }
 }
 
+/// Returns whether a key types nothing, so that it acts wherever the focus is.
+fn is_function(key: Key) -> bool {
+    key.name().strip_prefix('F').is_some_and(|number| number.parse::<u8>().is_ok())
+}
+
 /// Returns the state of the held keys that change what views show.
 pub fn held_keys(ctx: &Context) -> HeldKeys {
     HeldKeys { other: is_down(ctx, Key::C), three: is_down(ctx, Key::Z) }
 }
 
 fn is_down(ctx: &Context, key: Key) -> bool {
-    !ctx.text_edit_focused() && ctx.input(|i| i.key_down(key) && i.modifiers.is_none())
+    !row_focus::holds_keys(ctx) && ctx.input(|i| i.key_down(key) && i.modifiers.is_none())
 }

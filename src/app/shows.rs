@@ -26,7 +26,7 @@ pub enum Shows by key {
         "Crown and pavilion facets by tier, with their slopes, as cutters print them.";
     Refraction: "refraction", "Refraction map",
         "A background that moves behind the stone. A map of where the light comes from is traced once and \
-         then looked up; it always refracts fully, whatever the strength of renders. Drag the background to \
+         then looked up. Drag the background to \
          move it; drag with Ctrl to tilt the stone.";
     LiquidGlass: "liquid-glass", "Liquid glass",
         "A pane in front of the background as screens draw it, by formulas and without rays. Drag the pane \
@@ -69,6 +69,11 @@ impl Shows {
     /// Returns whether the picture is a pane of liquid glass, without the stone.
     pub fn is_pane(self) -> bool {
         matches!(self, Self::LiquidGlass | Self::TracedPane)
+    }
+
+    /// Returns whether the picture is chosen for a background, and says little of another document's stone.
+    pub fn is_of_background(self) -> bool {
+        self.is_pane() || self == Self::Refraction
     }
 
     /// Returns whether an overlay can be drawn over the picture.

@@ -51,6 +51,7 @@ pub fn apply(ctx: &Context) {
         ctx.style_mut_of(theme, |style| styled(style, theme));
     }
     ctx.add_glyph_rasterizer(glyphs::signs());
+    ctx.add_font_provider(glyphs::fonts_of_system());
     // Typing in a field ends with a press elsewhere, be it a drag or a click.
     ctx.options_mut(|o| o.input_options.surrender_focus_on = egui::SurrenderFocusOn::Presses);
 }

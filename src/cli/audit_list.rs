@@ -1,7 +1,7 @@
 //! Prints the findings of an audit for `info`: as a list for people, and as JSON.
 
 use crate::cut::{Audit, Finding, FindingKind, tier_stem};
-use crate::math::grouped;
+use crate::math::{fixed, grouped};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -71,7 +71,5 @@ fn line(alike: &[&Finding]) -> String {
 }
 
 fn place(point: &glam::DVec3) -> String {
-    // The coordinates are rounded first, so that a tiny negative number does not print as -0.000.
-    let [x, y, z] = ((1e3 * *point).round() / 1e3 + 0.0).to_array();
-    format!("({x:.3}, {y:.3}, {z:.3})")
+    format!("({})", point.to_array().map(|at| fixed(at, 3)).join(", "))
 }

@@ -4,6 +4,9 @@ use crate::io::export::Event;
 use crate::io::{Failure, is_standard};
 use std::path::Path;
 
+/// The name of standard output, with which the message begins where it cannot be written.
+pub const STANDARD_OUTPUT: &str = "standard output";
+
 /// Prints a line to standard error. Failures to write are ignored.
 pub fn say(text: &str) {
     use std::io::Write;
@@ -35,7 +38,9 @@ pub fn made_folder(folder: &Path) {
 pub fn print(text: &str) -> Result<(), Failure> {
     use std::io::{ErrorKind, Write};
     match writeln!(std::io::stdout().lock(), "{text}") {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Output(format!("standard output: {e}"))),
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Output(format!("{STANDARD_OUTPUT}: {e}")))
+        }
         _ => Ok(()),
     }
 }

@@ -1,10 +1,11 @@
 //! `convert`: writes a stone's design in another format.
 
+use super::comments;
 use super::console::say;
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
-use crate::cut::{Cut, Design};
+use crate::cut::{Cut, Design, Size};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
 use clap::Args;
@@ -24,6 +25,12 @@ pub struct Convert {
     /// move each tier to the distance that follows. A cut by proportions is turned into tiers first, named P1, G1, C1, T
     #[arg(long)]
     meets: bool,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    stone: Option<Size>,
+    /// Write over the file that is read even if its comments are lost
+    #[arg(long)]
+    drop_comments: bool,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -39,7 +46,11 @@ impl Convert {
                 endings.join(", ")
             ))
         })?;
-        let mut specimen = LoadedSpecimen::load(&self.input, self.mesh.options())?;
+        if !self.drop_comments {
+            comments::keep(&self.input, &self.output, "give another name, or --drop-comments")?;
+        }
+        let mut specimen =
+            LoadedSpecimen::load(&self.input, self.mesh.sized(self.stone))?.made_of(None, self.stone)?;
         if self.meets {
             specimen = followed(specimen)?;
         }
@@ -53,7 +64,7 @@ impl Convert {
 
 /// Returns the stone with its tiers at the distances that follow from their meets.
 fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
-    let LoadedSpecimen { path, made } = specimen;
+    let LoadedSpecimen { path, made, errors } = specimen;
     let Some(meets) = KnownMeets::of(&made) else {
         let why = made.why_not_convex().unwrap_or_default();
         return Err(Failure::Input(format!(
@@ -64,6 +75,6 @@ fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
     let cut = Cut::Tiers(meets.followed(&path));
     let design = made.design.clone();
     let made = made.remade(Design { cut, ..design });
-    made.map(|made| LoadedSpecimen { path: path.clone(), made })
+    made.map(|made| LoadedSpecimen { path: path.clone(), made, errors: errors.clone() })
         .map_err(|error| Failure::Input(format!("{path}: with its meets: {error}")))
 }

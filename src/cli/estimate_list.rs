@@ -3,6 +3,7 @@
 use super::specimen::LoadedSpecimen;
 use crate::cut::{ClassEstimate, Unit};
 use crate::io::Failure;
+use crate::math::fixed;
 use crate::measure::brilliant_proportions;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -50,9 +51,8 @@ pub fn table_of_estimate(path: &str, estimate: &ClassEstimate) -> String {
             _ => ", %",
         };
         let name = format!("{}{unit}", limit.name);
-        let shown = |value: Option<f64>, digits: usize| {
-            value.map_or_else(String::new, |value| format!("{value:.digits$}"))
-        };
+        let shown =
+            |value: Option<f64>, digits: usize| value.map_or_else(String::new, |value| fixed(value, digits));
         let (measured, rounded) = (shown(limit.measured, 2), shown(limit.rounded, 1));
         let _ = writeln!(text, "{name:<28}{measured:>10}{rounded:>10}{:>7}", limit.class);
     }

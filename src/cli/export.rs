@@ -63,8 +63,8 @@ impl ExportArguments {
         let all: Vec<Outputs> = self.files.iter().map(|file| self.outputs(file, &pictures)).collect();
         self.distinct(&all)?;
         all.iter().try_for_each(Outputs::check)?;
-        each_file(&self.files, |file| {
-            let specimen = self.light.specimen(file, self.mesh.options())?;
+        each_file(&self.files, false, |file| {
+            let specimen = self.light.specimen(file, self.mesh.sized(self.light.stone))?;
             let mut renderer = Renderer::new(Card::Machine);
             let mut viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             viewing.glare = if self.glare { Some(Glare::Included) } else { viewing.glare };

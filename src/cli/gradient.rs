@@ -1,10 +1,11 @@
 //! `gradient`: prints how the measures of a design change with its numbers.
 
-use super::console::{json, print};
+use super::console::{json, print, say};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
 use crate::cut::{Cut, ScaledSide, Unit};
 use crate::io::Failure;
+use crate::math::signed;
 use crate::measure::{Interval, MeasureName};
 use crate::render::{GradedStone, LEAST_TIER_DEG, MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
 use clap::Args;
@@ -57,6 +58,9 @@ impl GradientArguments {
             error if error.is_of_design() => Failure::Input(format!("{file}: {error}")),
             error => Failure::Usage(format!("{file}: {error}")),
         })?;
+        if let Some(why) = found.stone.measures.cut_short(measures.iter().copied()) {
+            say(&format!("warning: {file}: {why}; the derivatives are those of the light that was followed"));
+        }
         if self.json {
             return print(&json(&value(&file, &keys, &found)));
         }
@@ -130,7 +134,7 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
         };
         let name = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };
         let mut slopes = |name: String, of: &dyn Fn(&MeasureGradient) -> f64| {
-            row(name, found.iter().map(|each| format!("{:+.4}", 100.0 * of(each))).collect());
+            row(name, found.iter().map(|each| signed(100.0 * of(each), 4)).collect());
         };
         if found.iter().all(|each| each.sides[k].is_none()) {
             slopes(name, &|each| each.per[k]);

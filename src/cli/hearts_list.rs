@@ -1,6 +1,7 @@
 //! Lists of a stone's hearts and arrows, and of its spread.
 
 use crate::io::export::HeartsReport;
+use crate::math::{fixed, signed};
 use crate::measure::{EightfoldPattern, FaceUpSize, OctantFigure, OctantUnit};
 use std::fmt::Write;
 
@@ -30,7 +31,7 @@ pub fn table_of_hearts(report: &HeartsReport) -> String {
         [azimuth, (class.slope_spread_deg, &class.worst_slope, "slope")]
     });
     for (_, worst, of) in facets.filter(|(spread, ..)| *spread >= NOT_SHOWN) {
-        let _ = write!(text, "\n{}: {of} {:+.3}° from its class", worst.facet, worst.by_deg);
+        let _ = write!(text, "\n{}: {of} {}° from its class", worst.facet, signed(worst.by_deg, 3));
     }
     text
 }
@@ -66,8 +67,6 @@ fn line(figure: &OctantFigure, mains: &[String; 8]) -> String {
     let (Some(median), Some(spread), Some(worst)) = (figure.median, figure.spread, figure.worst) else {
         return format!("{name:<32}{:>9}{:>9}   in no octant", "-", "-");
     };
-    // Rounding leaves signs on azimuths of 0.
-    let [median, spread] = [median, spread].map(|value| if value.abs() < NOT_SHOWN { 0.0 } else { value });
     let missing: Vec<String> = (1..)
         .zip(&figure.octants)
         .filter(|(_, value)| value.is_none())
@@ -76,15 +75,15 @@ fn line(figure: &OctantFigure, mains: &[String; 8]) -> String {
     let at = match missing.is_empty() {
         false => format!("none in octant {}", missing.join(", ")),
         true if spread < NOT_SHOWN => "-".to_owned(),
-        true => format!("{} ({}) {:+.3}", worst.octant, mains[worst.octant - 1], worst.by),
+        true => format!("{} ({}) {}", worst.octant, mains[worst.octant - 1], signed(worst.by, 3)),
     };
-    format!("{name:<32}{median:>9.3}{spread:>9.3}   {at}")
+    format!("{name:<32}{:>9}{:>9}   {at}", fixed(median, 3), fixed(spread, 3))
 }
 
 /// Formats the spread of a stone.
 pub fn table_of_spread(path: &str, size: &FaceUpSize) -> String {
     let dash = |value: Option<f64>, digits: usize| {
-        value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"))
+        value.map_or_else(|| "-".to_owned(), |value| fixed(value, digits))
     };
     format!(
         "{path}: face-up size for weight\n\n\
@@ -92,7 +91,7 @@ pub fn table_of_spread(path: &str, size: &FaceUpSize) -> String {
          mean width, mm               {:>9.3}\n\
          weight, ct                   {:>9}\n\
          face for weight, mm²/ct      {:>9}\n\
-         spread, %                    {:>+9.3}\n\
+         spread, %                    {:>9}\n\
          weight ratio                 {:>9}\n\n\
          Spread is by how much the face is larger than that of a reference brilliant of the same weight (table 57, crown 34.0°,\n\
          pavilion 40.7°, girdle 2.5 %). The weight ratio, after GIA and only of round stones, is the volume in volumes of that\n\
@@ -101,7 +100,7 @@ pub fn table_of_spread(path: &str, size: &FaceUpSize) -> String {
         size.mean_width_mm,
         dash(size.carats, 3),
         dash(size.mm2_per_carat, 3),
-        if size.spread_percent.abs() < NOT_SHOWN { 0.0 } else { size.spread_percent },
+        signed(size.spread_percent, 3),
         dash(size.weight_ratio, 4),
     )
 }

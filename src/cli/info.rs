@@ -6,14 +6,15 @@ use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, load_assembly, weight};
+use crate::cut::from_mesh::FacetError;
 use crate::cut::{
-    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
+    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Size, Spread, Unit, tier_stem,
 };
 use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::io::assembly::{Assembly, MadeRing};
 use crate::io::built_design::is_scene;
-use crate::math::{Facet, Polytope, rounded};
+use crate::math::{Facet, Polytope, fixed, rounded};
 use crate::scene::{ALLOYS, Alloy, Body};
 use clap::Args;
 use glam::DVec2;
@@ -39,6 +40,9 @@ pub struct Info {
     /// A material's name, or an index, instead of the file's; of a scene, for every stone
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's; of a scene, for every stone
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    stone: Option<Size>,
     /// List every facet as well
     #[arg(long)]
     facets: bool,
@@ -56,10 +60,10 @@ pub struct Info {
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
-        let (mesh, material) = (self.mesh.options(), self.material.as_deref());
-        each_file(&self.files, |file| {
+        let (mesh, material) = (self.mesh.sized(self.stone), self.material.as_deref());
+        each_file(&self.files, self.json, |file| {
             if is_scene(file) {
-                let assembly = load_assembly(file, material, None, mesh)?;
+                let assembly = load_assembly(file, material, self.stone, mesh)?;
                 for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
                     if is_asked {
                         let file = file.display();
@@ -70,7 +74,7 @@ impl Info {
                 }
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
-            let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, None)?;
+            let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, self.stone)?;
             let mut value = described(&specimen)?;
             let meets = self.meets.then(|| KnownMeets::of(&specimen)).flatten();
             if self.meets && meets.is_none() {
@@ -151,10 +155,14 @@ fn scene_table(assembly: &Assembly) -> String {
     if let Some(light) = &assembly.light {
         let _ = writeln!(text, "  {:<28}{}", "light", light.display());
     }
-    let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
+    if !assembly.scene.instances.is_empty() {
+        let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
+    }
     assembly.ring.iter().for_each(|ring| ring_rows(ring, &mut text));
-    let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
-    let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
+    if !assembly.scene.instances.is_empty() {
+        let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
+        let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
+    }
     for (stone, place) in assembly.scene.instances.iter().zip(&assembly.places) {
         let weight = stone.carats(assembly.scene.unit_mm);
         let weight = weight.map_or("not known".to_owned(), |carats| format!("{carats:.3} ct"));
@@ -162,7 +170,7 @@ fn scene_table(assembly: &Assembly) -> String {
         let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
         // The height is rounded first, so that a tiny negative number does not print as -0.000.
         let at = (1e3 * place.at_mm).round() / 1e3 + 0.0;
-        let _ = write!(text, "{:>9.3}{:>9.3}{:>9.3}", at.x, at.y, at.z);
+        let _ = write!(text, "{:>9}{:>9}{:>9}", fixed(at.x, 3), fixed(at.y, 3), fixed(at.z, 3));
     }
     for metal in &assembly.scene.metals {
         let (mesh, name, roughness) = (&metal.label, metal.metal.name(), metal.roughness);
@@ -192,10 +200,10 @@ fn ring_rows(ring: &MadeRing, text: &mut String) {
         let _ = writeln!(text, "  {:<28}{:.2} g", format!("in {}", alloy.name), alloy.grams(volume_mm3));
     }
     if let Some(height) = mounting.culet_height_mm {
-        let _ = writeln!(text, "  {:<28}{height:.2} mm", "culet above the finger");
+        let _ = writeln!(text, "  {:<28}{} mm", "culet above the finger", fixed(height, 2));
     }
     if let Some(gap) = mounting.small_gap_mm {
-        let _ = writeln!(text, "  {:<28}{gap:.2} mm", "gap between small stones");
+        let _ = writeln!(text, "  {:<28}{} mm", "gap between small stones", fixed(gap, 2));
     }
 }
 
@@ -270,11 +278,12 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     value["edges"] = json!(polytope.edge_count());
     value["vertices"] = json!(polytope.vertices().iter().map(|v| v.to_array()).collect::<Vec<_>>());
     let facets = polytope.facets().iter().zip(stone.names());
-    value["facets"] = facets.map(|(facet, name)| facet_json(polytope, facet, name)).collect();
+    value["facets"] =
+        facets.map(|(facet, name)| facet_json(polytope, facet, name, specimen.error(name))).collect();
     Ok(value)
 }
 
-fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
+fn facet_json(polytope: &Polytope, facet: &Facet, name: &str, error: Option<&FacetError>) -> Value {
     let n = facet.plane.normal;
     let across = n.truncate();
     let mut value = json!({
@@ -287,6 +296,10 @@ fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
         "area": polytope.facet_area(facet),
         "corners": facet.outline,
     });
+    if let Some(error) = error {
+        value["slope_error_deg"] = json!(error.slope_deg);
+        value["azimuth_error_deg"] = json!(error.azimuth_deg);
+    }
     if facet.frosting > 0.0 {
         value["frosting"] = json!(facet.frosting);
     }
@@ -301,13 +314,6 @@ fn azimuth_deg(across: DVec2) -> f64 {
     let azimuth = across.to_angle().to_degrees().rem_euclid(360.0);
     // An angle that rounding has put just below 0 becomes 360, or just less.
     if 360.0 - azimuth < ROUNDING_DEG { 0.0 } else { azimuth }
-}
-
-/// Formats a number with this many decimal places. A number that rounds to 0 gets no minus sign.
-fn fixed(value: f64, digits: usize) -> String {
-    let text = format!("{value:.digits$}");
-    let is_nought = !text.bytes().any(|digit| matches!(digit, b'1'..=b'9'));
-    if is_nought { text.trim_start_matches('-').to_owned() } else { text }
 }
 
 /// Formats an azimuth in degrees. An azimuth that rounds to 360 is printed as 0.
@@ -345,10 +351,10 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
     if specimen.design.cut.brilliant().is_none() {
         let is_given = |key: &str| value["given"].get(key).is_some();
         proportions(&report, is_given, &mut line);
-    }
-    if matches!(specimen.design.cut, Cut::Tiers(_)) {
-        let AlongAxes { length_to_width, table: [t, u] } = report.along_axes;
-        line("L/W, T/W, U/W of GemCad", format!("{length_to_width:.3}, {:.3}, {:.3}", t / 100.0, u / 100.0));
+        match specimen.design.cut {
+            Cut::Tiers(_) => ratios(&report.along_axes, &mut line),
+            _ => depths(&report, is_given, &mut line),
+        }
     }
     let (facets, vertices) = (polytope.facets().len(), polytope.vertices().len());
     line("facets, edges, vertices", format!("{facets}, {}, {vertices}", polytope.edge_count()));
@@ -367,7 +373,7 @@ fn proportions_of_cut(cut: &Cut, value: &Value, line: &mut impl FnMut(&str, Stri
                 unit => unit.map(|unit| unit.to_string()).unwrap_or_default(),
             };
             let number = number.as_f64().unwrap_or(f64::NAN);
-            let digits = if group == "given" { rounded(number, 4) } else { format!("{number:.4}") };
+            let digits = if group == "given" { rounded(number, 4) } else { fixed(number, 4) };
             let mark = if group == "given" { "" } else { "   (derived)" };
             line(&key.replace('_', " "), format!("{digits}{unit}{mark}"));
         }
@@ -405,27 +411,37 @@ fn size_of_solid(
 /// Returns a line for each facet, below a line of headings; `None` of a body without facets to list.
 fn facet_table(value: &Value) -> Option<String> {
     let facets = value["facets"].as_array()?;
+    let is_scan = facets.iter().any(|facet| facet["slope_error_deg"].is_number());
     let mut text = format!("  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
+    if is_scan {
+        let _ = write!(text, "{:>14}{:>14}", "slope error", "azimuth error");
+    }
     for facet in facets {
         let number = |key: &str| facet[key].as_f64().unwrap_or(f64::NAN);
         let name = facet["name"].as_str().unwrap_or_default();
         let (slope, azimuth) = (number("slope_deg"), shown_azimuth(number("azimuth_deg")));
         let area = number("area");
         let _ = write!(text, "\n  {name:<18}{slope:>10.4}{azimuth:>11}{area:>12.6}");
+        if is_scan {
+            let error =
+                |key: &str| facet[key].as_f64().map_or_else(|| "-".to_owned(), |error| fixed(error, 4));
+            let _ = write!(text, "{:>14}{:>14}", error("slope_error_deg"), error("azimuth_error_deg"));
+        }
     }
     Some(text)
 }
 
-/// Writes the measured proportions of a stone; those that its design gives are marked as measured.
+/// Returns the name of a measured proportion, which is marked as measured where the design gives one of this name.
+fn measured(key: &str, is_given: impl Fn(&str) -> bool) -> String {
+    if is_given(&key.replace(' ', "_")) { format!("{key}, measured") } else { key.to_owned() }
+}
+
+/// Writes length and table of a stone.
 fn proportions(
     report: &ProportionReport,
     is_given: impl Fn(&str) -> bool,
     line: &mut impl FnMut(&str, String),
 ) {
-    let mut line = |key: &str, what: String| match is_given(&key.replace(' ', "_")) {
-        true => line(&format!("{key}, measured"), what),
-        false => line(key, what),
-    };
     // Its name differs from that of the design's own number, which may be below 1, or along the axis.
     line("outline length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
@@ -433,17 +449,32 @@ fn proportions(
         true => format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),
         false => "none".to_owned(),
     };
-    line("table", table);
+    line(&measured("table", is_given), table);
+}
+
+/// Writes the depths of a stone, as designs give them.
+fn depths(report: &ProportionReport, is_given: impl Fn(&str) -> bool, line: &mut impl FnMut(&str, String)) {
+    let mut line = |key: &str, what: String| line(&measured(key, &is_given), what);
     line("crown height", format!("{:.2} %", report.crown_height));
     let along = report.girdle_edges.map(|edges| spread(edges, 2));
     // Where the girdle is as thick all round, its edges are level.
     let along = along.filter(|text| text.contains('('));
-    let along = along.map(|text| {
-        format!(" between its edges, beyond each of which a tenth of its corners lies; along it {text} %")
-    });
+    let along = along.map(|text| format!(" at the mains; along it {text} %"));
     line("girdle thickness", format!("{:.2} %{}", report.girdle_thickness, along.unwrap_or_default()));
     line("pavilion depth", format!("{:.2} %", report.pavilion_depth));
     line("total depth", format!("{:.2} %", report.total_depth));
+}
+
+/// Writes the ratios that cutters' diagrams print, which count all depths in W.
+fn ratios(along: &AlongAxes, line: &mut impl FnMut(&str, String)) {
+    let [t, u] = along.table.map(|percent| percent / 100.0);
+    let mut list = |names: &str, of: &[f64]| {
+        let texts: Vec<String> = of.iter().map(|ratio| fixed(*ratio, 3)).collect();
+        line(names, texts.join(", "));
+    };
+    list("L/W, T/W, U/W", &[along.length_to_width, t, u]);
+    let AlongAxes { pavilion_to_width, girdle_to_width, crown_to_width, height_to_width, .. } = *along;
+    list("P/W, G/W, C/W, H/W", &[pavilion_to_width, girdle_to_width, crown_to_width, height_to_width]);
 }
 
 fn tiers(report: &ProportionReport, text: &mut String) {
@@ -474,10 +505,6 @@ mod tests {
         }
         assert!((azimuth_deg(DVec2::from_angle(-1e-6)) - 359.999_942_7).abs() < 1e-6);
         assert_eq!([359.999_99, 359.99, 0.0].map(shown_azimuth), ["0.0000", "359.9900", "0.0000"]);
-        assert_eq!(
-            [-1e-9, -0.0, -0.0001, 2.0].map(|v| fixed(v, 4)),
-            ["0.0000", "0.0000", "-0.0001", "2.0000"]
-        );
         let flat = Spread { least: -1e-17, mean: -1e-18, most: 1e-17 };
         assert_eq!(spread(flat, 4), "0.0000");
     }

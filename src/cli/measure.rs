@@ -10,6 +10,7 @@ use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
 use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
+use crate::math::{fixed, signed};
 use crate::measure::{
     ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
 };
@@ -92,8 +93,8 @@ impl Measure {
             ));
         }
         let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
-        each_file(&self.files, |file| {
-            let specimen = self.light.specimen(file, self.mesh.options())?;
+        each_file(&self.files, self.json, |file| {
+            let specimen = self.light.specimen(file, self.mesh.sized(self.light.stone))?;
             if self.deviations {
                 return self.list_deviations(&specimen);
             }
@@ -160,9 +161,14 @@ impl Measure {
         let stone = specimen.convex_stone("deviations are measured of round brilliants, which are convex")?;
         let classes = facet_deviations(stone).map_err(|why| refused(&why))?;
         if !self.json {
-            return print(&table_of_deviations(&specimen.path, &classes));
+            return print(&table_of_deviations(specimen, &classes));
         }
-        let value = serde_json::json!({ "file": specimen.path, "deviations": classes });
+        let mut value = serde_json::json!({ "file": specimen.path, "deviations": classes });
+        for (each, value) in classes.iter().zip(value["deviations"].as_array_mut().into_iter().flatten()) {
+            let errors = DeviationErrors::of(specimen, each);
+            value["worst_azimuth"]["error_deg"] = serde_json::json!(errors.azimuth_deg);
+            value["worst_slope"]["error_deg"] = serde_json::json!(errors.slope_deg);
+        }
         print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
     }
 }
@@ -206,22 +212,50 @@ impl Measure {
     }
 }
 
+/// The standard errors of the deviations of the worst facets of a class; `None` where the stone was not found in a scan.
+struct DeviationErrors {
+    azimuth_deg: Option<f64>,
+    slope_deg: Option<f64>,
+}
+
+impl DeviationErrors {
+    fn of(specimen: &LoadedSpecimen, class: &ClassDeviations) -> Self {
+        // A facet deviates from the median of eight, which adds π/16 of a variance to the facet's own.
+        let median = (1.0 + std::f64::consts::PI / 16.0).sqrt();
+        let azimuth = specimen.error(&class.worst_azimuth.facet).and_then(|error| error.azimuth_deg);
+        let slope = specimen.error(&class.worst_slope.facet).map(|error| error.slope_deg);
+        Self {
+            azimuth_deg: azimuth.map(|error| median * error),
+            slope_deg: slope.map(|error| median * error),
+        }
+    }
+}
+
 /// Formats deviations as a table, in degrees.
-fn table_of_deviations(path: &str, classes: &[ClassDeviations]) -> String {
+fn table_of_deviations(specimen: &LoadedSpecimen, classes: &[ClassDeviations]) -> String {
+    let (errors, wide) = match specimen.errors.is_empty() {
+        true => ("", 24),
+        false => (" ± its standard error", 34),
+    };
     let mut text = format!(
-        "{path}: deviations in degrees, max - min and the worst facet\n\n{:<12}{:>9}",
-        "class", "azimuth"
+        "{}: deviations in degrees, max - min and the worst facet{errors}\n\n{:<12}{:>9}",
+        specimen.path, "class", "azimuth"
     );
-    let _ = write!(text, "{:>24}{:>9}{:>24}", "worst", "slope", "worst");
+    let _ = write!(text, "{:>wide$}{:>9}{:>wide$}", "worst", "slope", "worst");
     for each in classes {
-        let worst = |of: &FacetDeviation, spread: f64| match spread < NOT_SHOWN_DEG {
+        let worst = |of: &FacetDeviation, spread: f64, error: Option<f64>| match spread < NOT_SHOWN_DEG {
             true => "-".to_owned(),
-            false => format!("{} {:+.3}", of.facet, of.by_deg),
+            false => {
+                let error = error.map_or(String::new(), |error| format!(" ± {error:.3}"));
+                format!("{} {}{error}", of.facet, signed(of.by_deg, 3))
+            }
         };
-        let turned = worst(&each.worst_azimuth, each.azimuth_spread_deg);
-        let leant = worst(&each.worst_slope, each.slope_spread_deg);
+        let errors = DeviationErrors::of(specimen, each);
+        let turned = worst(&each.worst_azimuth, each.azimuth_spread_deg, errors.azimuth_deg);
+        let leant = worst(&each.worst_slope, each.slope_spread_deg, errors.slope_deg);
         let [azimuth, slope] = [each.azimuth_spread_deg, each.slope_spread_deg];
-        let _ = write!(text, "\n{:<12}{azimuth:>9.3}{turned:>24}{slope:>9.3}{leant:>24}", each.class);
+        let [azimuth, slope] = [azimuth, slope].map(|spread| fixed(spread, 3));
+        let _ = write!(text, "\n{:<12}{azimuth:>9}{turned:>wide$}{slope:>9}{leant:>wide$}", each.class);
     }
     text
 }

@@ -3,6 +3,7 @@
 use super::console::say;
 use crate::cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
 use crate::io::as_tiers;
+use crate::math::fixed;
 use crate::scene::Specimen;
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -19,20 +20,23 @@ pub struct KnownMeets<'a> {
     design: Cow<'a, Tiers>,
     /// The origin of each tier's meet; empty where the tier has none.
     sources: Vec<&'static str>,
+    /// The design with all meets, and with the names by which they call its tiers.
     met: Tiers,
+    /// The names of the tiers.
+    names: Vec<String>,
     solved: SolvedTiers,
 }
 
 impl<'a> KnownMeets<'a> {
-    /// Takes the meets that the file gives, that instructions state, and that the geometry shows, in this order. A stone that
-    /// is not cut by tiers is turned into tiers first; `None` for a body that is no convex stone between planes.
+    /// Takes the meets that the file gives, that instructions state, and that the geometry shows, in this order, and names the
+    /// tiers. A stone that is not cut by tiers is turned into tiers first; `None` for a body that is no convex stone between planes.
     pub fn of(specimen: &'a Specimen) -> Option<Self> {
         let design = match &specimen.design.cut {
             Cut::Tiers(tiers) => Cow::Borrowed(tiers),
             _ => Cow::Owned(as_tiers(specimen)?),
         };
-        let stated = design.with_stated_meets();
-        let met = stated.with_found_meets();
+        let stated = design.with_stated_meets().with_names_in_meets();
+        let (met, solved) = stated.with_found_meets_followed();
         let has = |tiers: &Tiers, place: usize| tiers.tiers[place].meet.is_some();
         let source = |place| match () {
             () if has(&design, place) => "file",
@@ -41,8 +45,7 @@ impl<'a> KnownMeets<'a> {
             () => "",
         };
         let sources = (0..design.tiers.len()).map(source).collect();
-        let solved = met.solved();
-        Some(Self { design, sources, met, solved })
+        Some(Self { design, sources, names: met.names(), met, solved })
     }
 
     /// Returns whether the stone was turned into tiers.
@@ -61,14 +64,14 @@ impl<'a> KnownMeets<'a> {
         say(&format!(
             "note: {path}: turned into {all} tiers; {met} have a meet, the others keep their distance"
         ));
-        let between: Vec<&str> = self.design.between_teeth().collect();
+        let between = self.met.between_teeth();
         if !between.is_empty() {
             let (gear, names) = (self.design.gear.abs(), between.join(", "));
             say(&format!("note: {path}: indices lie between the teeth of the gear of {gear}: {names}"));
         }
     }
 
-    /// Returns the solved design with its meets, each also as an instruction where there was none. Prints a note for each tier
+    /// Returns the solved design with its meets, each also as an instruction where there was none, or one that states another. Prints a note for each tier
     /// that moves, and a warning for each meet that cannot be followed.
     pub fn followed(self, path: &str) -> Tiers {
         for (place, (before, after)) in self.design.tiers.iter().zip(&self.solved.tiers.tiers).enumerate() {
@@ -83,17 +86,11 @@ impl<'a> KnownMeets<'a> {
             }
         }
         self.solved.errors().for_each(|error| say(&format!("warning: {path}: {error}")));
-        self.solved.tiers
+        self.solved.tiers.with_words_of_meets()
     }
 
     fn called(&self, place: usize) -> String {
-        let tier = &self.design.tiers[place];
-        let number = place + 1;
-        if tier.name().is_empty() {
-            format!("tier {number}")
-        } else {
-            format!("tier {number} '{}'", tier.name())
-        }
+        format!("tier {} '{}'", place + 1, self.names[place])
     }
 
     /// Returns one object for each tier.
@@ -108,7 +105,7 @@ impl<'a> KnownMeets<'a> {
             };
             json!({
                 "tier": place + 1,
-                "name": tier.name(),
+                "name": self.names[place],
                 "instructions": tier.instructions,
                 "meet": self.met.tiers[place].meet.as_ref().map(Meet::to_string),
                 "source": self.sources[place],
@@ -167,15 +164,11 @@ impl<'a> KnownMeets<'a> {
             "tier", "distance", "solved", "difference", "source"
         );
         for (place, tier) in self.design.tiers.iter().enumerate() {
-            let name = if tier.name().is_empty() { (place + 1).to_string() } else { tier.name().to_owned() };
+            let name = &self.names[place];
             let meet = self.met.tiers[place].meet.as_ref().map_or_else(|| "-".to_owned(), Meet::to_string);
-            // The distance is rounded first, so that a tiny negative number does not print as -0.000000.
             let solved = self.solved.tiers.tiers[place].distance;
             let (solved, difference) = match &self.solved.outcomes[place] {
-                TierOutcome::Solved => (
-                    format!("{solved:.6}"),
-                    format!("{:.6}", (self.difference(place) * 1e6).round() / 1e6 + 0.0),
-                ),
+                TierOutcome::Solved => (fixed(solved, 6), fixed(self.difference(place), 6)),
                 TierOutcome::Failed(_) => ("failed".to_owned(), String::new()),
                 TierOutcome::Kept | TierOutcome::Sets => ("given".to_owned(), String::new()),
             };
@@ -186,8 +179,8 @@ impl<'a> KnownMeets<'a> {
             };
             let _ = write!(
                 text,
-                "\n  {name:<14}{:>12.6}{solved:>12}{difference:>13}  {source:<8}{meet}{ambiguous}",
-                tier.distance
+                "\n  {name:<14}{:>12}{solved:>12}{difference:>13}  {source:<8}{meet}{ambiguous}",
+                fixed(tier.distance, 6)
             );
         }
         for error in self.solved.errors() {

@@ -1,7 +1,8 @@
 //! The options of every command that reads meshes.
 
-use crate::cut::from_mesh::Up;
-use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::cut::Size;
+use crate::cut::from_mesh::{Evening, Up};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
@@ -15,12 +16,34 @@ pub struct MeshArguments {
     /// The form in which the triangles of a mesh are read [default: as found]
     #[arg(long = "as", value_name = "FORM", value_enum)]
     form: Option<MeshForm>,
+    /// The unit of a mesh: mm, cm, m, in, um, or its length, such as 0.5mm [default: as the file states, m in glTF, else mm]
+    #[arg(long, value_name = "UNIT", allow_hyphen_values = true)]
+    unit: Option<MeshUnit>,
+    /// The solid that is read of a mesh that has several: its number, its name, or all [default: the largest]
+    #[arg(long, value_name = "PART", value_parser = part)]
+    part: Option<MeshPart>,
+    /// Keep the facets of a mesh as they are found. Otherwise a mesh that is symmetric except for its noise becomes a stone that is
+    /// exactly symmetric, with a note
+    #[arg(long)]
+    as_found: bool,
 }
 
 impl MeshArguments {
     /// Returns the mesh options, with defaults for those that are not given.
     pub fn options(self) -> MeshOptions {
-        MeshOptions { up: self.up.unwrap_or_default(), form: self.form.unwrap_or_default() }
+        let Self { up, form, unit, part, as_found } = self;
+        MeshOptions {
+            up: up.unwrap_or_default(),
+            form: form.unwrap_or_default(),
+            unit: unit.unwrap_or_default(),
+            part: part.unwrap_or_default(),
+            evening: if as_found { Evening::AsFound } else { Evening::WhereLikely },
+        }
+    }
+
+    /// Returns the mesh options for a stone of this size, if it is given.
+    pub fn sized(self, size: Option<Size>) -> MeshOptions {
+        self.options().sized(size)
     }
 
     /// Returns the options as command-line words, with numbers in a fixed form.
@@ -31,7 +54,18 @@ impl MeshArguments {
         });
         let form = self.form.and_then(|form| form.to_possible_value()).map(|form| form.get_name().to_owned());
         let words = |option: &str, value: Option<String>| value.map(|value| [option.to_owned(), value]);
-        words("--up", up).into_iter().chain(words("--as", form)).flatten().collect()
+        let [unit, part] = [self.unit.map(|unit| unit.to_string()), self.part.map(|part| part.to_string())];
+        let all = [words("--up", up), words("--as", form), words("--unit", unit), words("--part", part)];
+        let as_found = self.as_found.then(|| "--as-found".to_owned());
+        all.into_iter().flatten().flatten().chain(as_found).collect()
+    }
+}
+
+/// Parses the value of `--part`; any text may be a name.
+fn part(text: &str) -> Result<MeshPart, String> {
+    match MeshPart::from(text) {
+        MeshPart::Found => Err("give the number or the name of a body, or all".to_owned()),
+        part => Ok(part),
     }
 }
 
@@ -84,5 +118,18 @@ mod tests {
             let message = up(&[&format!("--up={bad}")]).unwrap_err();
             assert!(message.contains("give x, -x, y, -y, z, -z, or three numbers"), "{bad}: {message}");
         }
+    }
+
+    #[test]
+    fn a_part_is_a_number_a_name_or_all() {
+        let given = |text: &str| Command::try_parse_from(["b", "--part", text]).map(|c| c.mesh);
+        for (text, part) in
+            [("2", MeshPart::Number(2)), ("all", MeshPart::All), ("Stone 1", MeshPart::Named("Stone 1"))]
+        {
+            let mesh = given(text).unwrap();
+            assert_eq!(mesh.options().part, part);
+            assert_eq!(mesh.words(), ["--part", text]);
+        }
+        assert!(given("").unwrap_err().to_string().contains("the number or the name of a body, or all"));
     }
 }

@@ -6,8 +6,11 @@
 mod audit_list;
 mod batch;
 mod bench;
+mod comments;
 mod console;
 mod convert;
+#[cfg(test)]
+mod documents;
 mod estimate_list;
 mod export;
 mod gradient;
@@ -92,7 +95,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the comm
     standard input.";
 
 /// The hint after an error about options or files that the editor does not take.
-const EDITOR_TAKES: &str = "the editor takes one FILE and no options but --up and --as, which are for meshes; \
+const EDITOR_TAKES: &str = "the editor takes one FILE and no options but --up, --as, --unit and --part, which are for meshes; \
     `brillianteer export`, `render`, `measure` and `info` take several files, and a material, a view and a light";
 
 #[derive(Debug, Subcommand)]

@@ -1,5 +1,6 @@
 //! `optimise`: finds a better design by a goal, and prints which measures rose and which fell.
 
+use super::comments;
 use super::console::{print, say, written};
 use super::optimise_text::{json_value, text};
 use super::options::number;
@@ -69,6 +70,10 @@ pub struct OptimiseArguments {
     /// The seed of the scatter: another number scatters other designs
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
+    /// Let an audit of the result find more than one of the given design, as the key new_findings of a goal file does. Otherwise small
+    /// facets, short edges and the girdle's thickness are limited too
+    #[arg(long)]
+    new_findings: bool,
     /// Treat the light as unpolarised at every surface
     #[arg(long)]
     unpolarised: bool,
@@ -140,6 +145,7 @@ impl OptimiseArguments {
         let format = self.format()?;
         let plot = self.plot.as_deref().map(PlotFile::new).transpose()?;
         self.out.iter().chain(&self.plot).try_for_each(|path| check_writable(path))?;
+        self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
         let specimen = LoadedSpecimen::load(&self.file, crate::io::mesh_options::MeshOptions::default())?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
         let path = specimen.path.clone();
@@ -152,7 +158,8 @@ impl OptimiseArguments {
         let search = search.map_err(refused)?;
         if self.goal.is_none() && self.raise.is_empty() && self.lower.is_empty() {
             say(
-                "note: no goal is given, so return-cos2=0.5, return-cos2@10=0.5 and fire=1 are raised; --raise names another",
+                "note: no goal is given, so return-cos2=0.5, return-cos2@10=0.5 and fire=1 are raised, and neither return-cos2@10 nor \
+                 fire may fall; --raise names another",
             );
         }
         let own = goal.measure.iter().filter(|measure| measure.material.is_none() && measure.weight != 0.0);
@@ -168,13 +175,7 @@ impl OptimiseArguments {
         note_held(&path, &search);
         let outcome = self.searched(&search, &path).map_err(refused)?;
         if outcome.was_stopped {
-            let angles = match self.angle_step {
-                Some(step) => format!(", so that angles may be no multiples of {step} degrees"),
-                None => String::new(),
-            };
-            say(&format!(
-                "note: the search was stopped early{angles}; the best design was not measured again more finely"
-            ));
+            say("note: the search was stopped early; the best design was not measured again more finely");
         }
         if !outcome.keeps_limits {
             say(&format!(
@@ -226,6 +227,7 @@ impl OptimiseArguments {
             let Goal { name, measure, .. } = Goal::usual();
             goal = Goal { name, measure, ..goal };
         }
+        goal.new_findings |= self.new_findings;
         if self.angle_step.is_some_and(|step| !(1e-3..=10.0).contains(&step)) {
             return Err(Failure::Usage("--angle-step: give 0.001 to 10 degrees".to_owned()));
         }

@@ -2,7 +2,7 @@
 
 use super::sweep_plot::label;
 use crate::cut::Cut;
-use crate::math::rounded;
+use crate::math::{rounded, signed};
 use crate::measure::Interval;
 use crate::search::{
     DesignSearch, Goal, GoalValue, MeasureChange, OtherMeasure, SearchOutcome, VariedNumber,
@@ -20,9 +20,10 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
     let by = outcome.best.total.middle() - start.total.middle();
     let _ = writeln!(
         text,
-        "{name}: {} before, {} after, {by:+.5}",
+        "{name}: {} before, {} after, {}",
         total(start.total),
-        total(outcome.best.total)
+        total(outcome.best.total),
+        signed(by, 5)
     );
     let _ = writeln!(text, "{} designs appraised\n", outcome.appraised);
     let _ = writeln!(text, "  {:<38}{:>18}{:>18}{:>9}", "", "before", "after", "change");
@@ -43,22 +44,37 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
         let range =
             format!("from {} to {}{}", rounded(*least, 4), rounded(*most, 4), number.end_of_range(*value));
         let label = label(key, &search.objective().design().cut);
-        let _ = writeln!(text, "  {label:<38}{start:>12.4}{value:>18.4}{:>+15.4}   {range}", value - start);
+        let _ = writeln!(
+            text,
+            "  {label:<38}{start:>12.4}{value:>18.4}{:>15}   {range}",
+            signed(value - start, 4)
+        );
     }
     if !start.figures.is_empty() {
         let _ = writeln!(text, "Limits");
     }
     for ((name, before), (_, after)) in start.figures.iter().zip(&outcome.best.figures) {
-        let (low, high) =
-            goal.limit.get(name).map_or((f64::NEG_INFINITY, f64::INFINITY), |limit| limit.ends());
+        let (low, high) = search.objective().ends_of(name);
         let [least, most] = [low, high].map(|end| rounded(end, 6));
         let ends = match (low.is_finite(), high.is_finite()) {
             (true, true) => format!("from {least} to {most}"),
             (true, false) => format!("at least {least}"),
             _ => format!("at most {most}"),
         };
-        let _ = writeln!(text, "  {name:<38}{before:>12.4}{after:>18.4}{:>+15.4}   {ends}", after - before);
+        let _ = writeln!(
+            text,
+            "  {name:<38}{before:>12.4}{after:>18.4}{:>15}   {ends}",
+            signed(after - before, 4)
+        );
     }
+    let [before, after] = outcome.audits.each_ref().map(|audit| audit.findings.len());
+    let _ = writeln!(text, "Audit");
+    let mut count = |name: &str, [before, after]: [usize; 2]| {
+        let by = after as i64 - before as i64;
+        let _ = writeln!(text, "  {name:<38}{before:>12}{after:>18}{by:>+15}");
+    };
+    count("findings", [before, after]);
+    outcome.findings().into_iter().for_each(|(kind, counts)| count(kind.name(), counts));
     let corners = search.objective().kept_corners();
     if let (Cut::Tiers(_), true) = (&outcome.design.cut, corners > 0) {
         let miss = |design| search.objective().miss_of_meets(design);
@@ -79,11 +95,11 @@ fn line(change: &MeasureChange) -> String {
         false => format!("at least {:.2} %", 100.0 * value.least),
     };
     format!(
-        "  {:<38}{:>18}{:>18}{:>+9.2}\n",
+        "  {:<38}{:>18}{:>18}{:>9}\n",
         format!("{}{}", change.of, change.conditions()),
         part(change.before),
         part(change.after),
-        100.0 * change.by()
+        signed(100.0 * change.by(), 2)
     )
 }
 
@@ -130,6 +146,15 @@ pub fn json_value(
         "held": search.objective().held().iter().map(|number| number.key.to_string()).collect::<Vec<String>>(),
         "limits": limits,
         "keeps_limits": outcome.keeps_limits,
+        "audit": json!({
+            "before": outcome.audits[0].findings.len(),
+            "after": outcome.audits[1].findings.len(),
+            "kinds": outcome.findings().into_iter().map(|(kind, [before, after])| json!({
+                "kind": kind,
+                "before": before,
+                "after": after,
+            })).collect::<Vec<Value>>(),
+        }),
         "kept_corners": search.objective().kept_corners(),
         "miss_of_meets": search.objective().miss_of_meets(&outcome.design),
         "appraised": outcome.appraised,

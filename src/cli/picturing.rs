@@ -78,11 +78,19 @@ impl<'a> PictureSetup<'a> {
         file: &Path,
         viewpoint: Viewpoint,
     ) -> Result<Self, Failure> {
-        let mut assembly =
-            load_assembly(file, options.material.as_deref(), options.stone, options.mesh.options())?;
+        let mut assembly = load_assembly(
+            file,
+            options.material.as_deref(),
+            options.stone,
+            options.mesh.sized(options.stone),
+        )?;
         if let Some(seconds) = options.moment {
             let seconds = within("moment", seconds, 0.0, 1e5)?;
-            assembly = assembly.at_moment(seconds, options.movement)?;
+            let refused = |error: Failure| match error {
+                Failure::Input(message) => Failure::Input(format!("{message} (leave out --moment)")),
+                other => other,
+            };
+            assembly = assembly.at_moment(seconds, options.movement).map_err(refused)?;
         }
         assembly.scene.instances.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());

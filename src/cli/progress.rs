@@ -7,10 +7,12 @@ use crate::io::{Failure, abandon_writes};
 use indicatif::{ProgressBar, ProgressStyle};
 #[cfg(unix)]
 use signal_hook::{
-    consts::{SIGINT, SIGTERM},
+    consts::{SIGINT, SIGTERM, SIGXFSZ},
     iterator::Signals,
 };
 use std::ops::ControlFlow;
+#[cfg(unix)]
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::{Duration, Instant};
@@ -53,6 +55,10 @@ fn ask_to_finish() -> bool {
 pub fn end_on_signals() {
     // An error here is ignored: without the handler a signal still ends the program, but leaves temporary files
     // behind.
+    // A file beyond the limit of `ulimit -f` is then an error of its writing, which leaves nothing behind, and not the end of
+    // the program.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
     #[cfg(unix)]
     if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
         std::thread::spawn(move || {

@@ -66,7 +66,7 @@ impl RefractionMaps {
         }
         within("span", self.span, 1.0, 100.0)?;
         distinct(&self.files)?;
-        each_file(&self.files, |file| self.make(file))
+        each_file(&self.files, false, |file| self.make(file))
     }
 
     fn make(&self, file: &Path) -> Result<(), Failure> {
@@ -141,6 +141,7 @@ impl RefractionMaps {
             places: self.places,
             shades: self.picture.wavelengths,
             adapted: !self.picture.unadapted,
+            strength: studio.strength,
         };
         let film = Film::new(self.picture.size, pixel);
         let product = Product::RefractionMap(product);

@@ -57,7 +57,7 @@ impl Render {
         if self.probe.is_none() {
             distinct(&self.files)?;
         }
-        each_file(&self.files, |file| self.render(file))
+        each_file(&self.files, false, |file| self.render(file))
     }
 
     /// Returns the path of a file's picture, and whether `--out` is a single file and not a folder. In a folder, the name

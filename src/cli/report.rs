@@ -1,12 +1,13 @@
 //! `report`: writes a report on a design, or on how several compare, as a laboratory would hand it out.
 
-use super::console::written;
+use super::batch::{ends_all, of_several, report_failure};
+use super::console::{say, written};
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, SideName, ViewOptions};
 use super::progress::WorkProgress;
 use crate::cut::Size;
 use crate::io::report::{PICTURE_SIDE, ReportFormat, ReportOrigin, check_count, report, write};
-use crate::io::{Failure, check_writable, is_standard};
+use crate::io::{Failure, check_writable, is_standard, note_of_letters};
 use crate::picture::PaperSize;
 use crate::render::{Card, Renderer, Wanted};
 use clap::Args;
@@ -53,22 +54,45 @@ impl ReportArguments {
         let light = self.light();
         // The last digits of a card's results differ from the processor's, so reports use the processor alone.
         let mut renderer = Renderer::new(Card::None);
-        let mut specimens = vec![];
+        let (mut specimens, mut failed) = (vec![], vec![]);
         for file in &self.files {
-            specimens.push(light.specimen(file, self.mesh.options())?);
+            let loaded = light.specimen(file, self.mesh.sized(light.stone)).and_then(|specimen| {
+                light.viewing(&specimen, &FACE_UP, &renderer)?;
+                Ok(specimen)
+            });
+            match loaded {
+                Ok(specimen) => specimens.push((file, specimen)),
+                Err(failure) if self.files.len() == 1 || ends_all(&failure) => return Err(failure),
+                Err(failure) => {
+                    report_failure(file, &failure, false)?;
+                    failed.push((file, failure));
+                }
+            }
+        }
+        if specimens.is_empty() {
+            return of_several(&failed, self.files.len());
         }
         let mut viewings = vec![];
-        for specimen in &specimens {
+        for (_, specimen) in &specimens {
             viewings.push(light.viewing(specimen, &FACE_UP, &renderer)?);
         }
-        let (command, date) = (self.command(), self.date.clone());
+        let reported: Vec<&PathBuf> = specimens.iter().map(|(file, _)| *file).collect();
+        let (command, date) = (self.command(&reported), self.date.clone());
         let origin = ReportOrigin { command, picture_side: self.pixels, date };
         let report = {
             let progress = WorkProgress::new("report");
             report(&viewings, &origin, &mut renderer, &progress.watch(), &|event| progress.report(event))?
         };
         write(&self.out, format, &report, self.paper)?;
-        written(&self.out)
+        written(&self.out)?;
+        let designs = specimens.iter().map(|(_, specimen)| &specimen.design);
+        let texts =
+            designs.flat_map(|design| [Some(design.name.as_str()), design.source.as_deref()]).flatten();
+        // The browser that shows a web page has fonts of its own.
+        if let Some(note) = note_of_letters(texts).filter(|_| format == ReportFormat::Pdf) {
+            say(&format!("note: {}: {note}", self.out.display()));
+        }
+        of_several(&failed, self.files.len())
     }
 
     /// Returns the options of the light, which are the same for every report, so that reports can be compared.
@@ -87,10 +111,11 @@ impl ReportArguments {
         }
     }
 
-    /// Returns the command that makes the same report again; options that do not change the content are left out.
-    fn command(&self) -> String {
+    /// Returns the command that makes the same report of these files again; options that do not change the content are left
+    /// out.
+    fn command(&self, files: &[&PathBuf]) -> String {
         let mut words = vec!["brillianteer".to_owned(), "report".to_owned()];
-        words.extend(self.files.iter().map(|file| file.display().to_string()));
+        words.extend(files.iter().map(|file| file.display().to_string()));
         words.extend(self.material.iter().flat_map(|material| ["--material".to_owned(), material.clone()]));
         words.extend(
             self.stone.iter().flat_map(|size| ["--stone".to_owned(), size.to_string().replace(' ', "")]),
@@ -130,15 +155,17 @@ mod tests {
 
     fn command(options: &str) -> String {
         let words = ["b"].into_iter().chain(options.split(' '));
-        Line::try_parse_from(words).unwrap().report.command()
+        let report = Line::try_parse_from(words).unwrap().report;
+        report.command(&report.files.iter().collect::<Vec<_>>())
     }
 
     #[test]
     fn a_report_says_what_makes_it_again() {
         let said = command(
-            "a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --pixels 99 --up -y --as faceted",
+            "a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --pixels 99 --up -y --as faceted --unit in",
         );
-        let again = "brillianteer report a.toml b.stl --stone 1.5ct --pixels 99 --up 0,-1,0 --as faceted";
+        let again =
+            "brillianteer report a.toml b.stl --stone 1.5ct --pixels 99 --up 0,-1,0 --as faceted --unit in";
         assert_eq!(said, again);
         assert_eq!(
             command(&again["brillianteer report ".len()..].replace("b.stl", "b.stl -o y.html")),

@@ -1,5 +1,6 @@
 //! `retarget`: fits a design to another material, and measures the light of both.
 
+use super::comments;
 use super::console::{json, print, say};
 use super::mesh_options::MeshArguments;
 use super::options::{checked_wavelength, extrapolation, number};
@@ -7,6 +8,7 @@ use super::specimen::{LoadedSpecimen, asked_material, note_colour};
 use crate::cut::{Design, RetargetError, RetargetRule, Retargeted, ScaleError, retarget};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
+use crate::math::fixed;
 use crate::measure::Measured;
 use crate::optics::line;
 use crate::render::{MeasureError, MeasureOptions, measure};
@@ -98,6 +100,7 @@ impl RetargetArguments {
             })
         });
         let format = format.transpose()?;
+        self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
         let specimen = LoadedSpecimen::load(&self.file, self.mesh.options())?;
         let path = specimen.path.clone();
         let (material, _) = asked_material(&self.material)?;
@@ -217,7 +220,7 @@ impl RetargetArguments {
         );
         for tier in &found.tiers {
             let margin = match tier.after_deg < 0.0 {
-                true => format!("{:.2}", -tier.after_deg - to),
+                true => fixed(-tier.after_deg - to, 2),
                 false => String::new(),
             };
             let (name, facets, before, after) = (&tier.name, tier.facets, tier.before_deg, tier.after_deg);

@@ -53,9 +53,8 @@ impl RoughYield {
             }
         };
         let found = found.map_err(|error| match error {
-            RoughError::Thin { .. } | RoughError::GirdleOfMesh | RoughError::Smooth => {
-                Failure::Input(format!("{path}: {error}"))
-            }
+            RoughError::GirdleOfMesh => Failure::Input(format!("{path}: {error} (leave out --girdle-mm)")),
+            RoughError::Thin { .. } | RoughError::Smooth => Failure::Input(format!("{path}: {error}")),
             error => Failure::Usage(format!("{path}: {error}")),
         })?;
         let carats = specimen.material.carats(found.volume_mm3);

@@ -1,11 +1,12 @@
 //! `sheet`: writes the sheets that gem cutters work from.
 
 use super::batch::{distinct, each_file};
-use super::console::{json, print, written};
+use super::console::{json, print, say, written};
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, stem};
+use crate::cut::Size;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
-use crate::io::{Failure, is_standard};
+use crate::io::{Failure, is_standard, note_of_letters};
 use crate::picture::PaperSize;
 use clap::Args;
 use serde_json::json;
@@ -34,6 +35,9 @@ pub struct SheetArguments {
     /// A material's name, or an index, instead of the file's
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    stone: Option<Size>,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -41,9 +45,9 @@ pub struct SheetArguments {
 impl SheetArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let format = if self.json { None } else { Some(self.format()?) };
-        each_file(&self.files, |file| {
-            let specimen =
-                LoadedSpecimen::load(file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
+        each_file(&self.files, self.json, |file| {
+            let specimen = LoadedSpecimen::load(file, self.mesh.sized(self.stone))?
+                .made_of(self.material.as_deref(), self.stone)?;
             let sheet = cutting_sheet(&specimen, self.left_handed)?;
             let Some((format, is_folder)) = format else {
                 let mut value = json!({ "file": specimen.path });
@@ -58,7 +62,13 @@ impl SheetArguments {
                 true => self.out.join(format!("{}-sheet.{}", stem(file), format.ending())),
                 false => self.out.clone(),
             };
-            write(&sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))
+            write(&sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))?;
+            // The viewer of an SVG has fonts of its own.
+            let texts = serde_json::to_string(&sheet).unwrap_or_default();
+            if let Some(note) = note_of_letters([texts.as_str()]).filter(|_| format != SheetFormat::Svg) {
+                say(&format!("note: {}: {note}", path.display()));
+            }
+            Ok(())
         })
     }
 

@@ -1,6 +1,7 @@
 //! Reads and builds the stone that a command works on.
 
 use super::console::say;
+use crate::cut::from_mesh::FacetError;
 use crate::cut::{MaterialError, MaterialRef, Size};
 use crate::io::assembly::Assembly;
 use crate::io::built_design::BuiltDesign;
@@ -21,6 +22,8 @@ pub struct LoadedSpecimen {
     pub path: String,
     /// The stone, built from its design.
     pub made: scene::Specimen,
+    /// The standard errors of the facets of a scan; empty for other designs.
+    pub errors: Vec<FacetError>,
 }
 
 impl Deref for LoadedSpecimen {
@@ -35,14 +38,28 @@ impl LoadedSpecimen {
     /// Reads a design, or takes by its name a cut that comes with the program, and builds the stone. Prints notes and
     /// warnings about it.
     pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
-        let BuiltDesign { path, made, remarks } = BuiltDesign::load(file, mesh)?;
+        let BuiltDesign { path, made, remarks, parts, has_other_reading, errors } =
+            BuiltDesign::load(file, mesh)?;
         remarks.iter().for_each(|remark| say(remark));
-        Ok(Self { path, made })
+        if !parts.is_empty() {
+            say(&format!(
+                "note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"
+            ));
+        }
+        if has_other_reading {
+            say(&format!("note: {path}: --as and --up choose how it is read"));
+        }
+        Ok(Self { path, made, errors })
+    }
+
+    /// Returns the standard errors of the facet of a name, where the stone was found in a scan.
+    pub fn error(&self, facet: &str) -> Option<&FacetError> {
+        self.errors.iter().find(|error| error.facet == facet)
     }
 
     /// Returns the same stone with another material (a name or an index) and size, where one of them is `Some`.
     pub fn made_of(self, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
-        let Self { path, made } = self;
+        let Self { path, made, errors } = self;
         let mut design = made.design.clone();
         let mut of = made.material.clone();
         if let Some(text) = material {
@@ -53,7 +70,7 @@ impl LoadedSpecimen {
             design.diameter_mm = diameter.map_err(|e| Failure::Input(format!("{path}: size: {e}")))?;
         }
         let made = made.remade(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
-        Ok(Self { path, made })
+        Ok(Self { path, made, errors })
     }
 
     /// Returns the stone with its facets. `what` begins the message where there is none: what the command does of which

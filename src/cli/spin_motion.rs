@@ -1,5 +1,6 @@
 //! The motion of a stone in an animation, frame by frame.
 
+use crate::math::fixed;
 use crate::scene::{Lean, View, Viewpoint};
 use clap::ValueEnum;
 use glam::DQuat;
@@ -90,8 +91,8 @@ impl SpinPose {
         let tenths = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;
         let (tilt, azimuth) = (tenths(tilt_deg), tenths(azimuth_deg));
         let leaning = match lean {
-            Lean::Stone => format!("tilted {tilt:.1}° toward {azimuth}°"),
-            Lean::Eye => format!("eye moved {tilt:.1}° toward {azimuth}°"),
+            Lean::Stone => format!("tilted {}° toward {azimuth}°", fixed(tilt, 1)),
+            Lean::Eye => format!("eye moved {}° toward {azimuth}°", fixed(tilt, 1)),
         };
         match self.motion {
             StoneMotion::Turn if tilt_deg == 0.0 => format!("turned {:.1}°", self.turned_deg),

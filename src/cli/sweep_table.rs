@@ -2,7 +2,7 @@
 
 use super::console::print;
 use super::sweep_parquet::ParquetTable;
-use crate::io::{Failure, check_writable};
+use crate::io::{Failure, WholeFile, check_writable};
 use crate::measure::{Interval, MeasureName};
 use crate::render::SweptStone;
 use serde_json::{Map, Value, json};
@@ -103,26 +103,25 @@ impl SweepTable {
 pub struct RowTable {
     columns: Vec<String>,
     is_json: bool,
-    file: Option<(PathBuf, File)>,
+    /// The file; `None` for standard output.
+    file: Option<RowFile>,
     /// The number of rows that the file held already.
     kept: usize,
     /// The last of these rows, from the last row with measures on, until they have been taken again.
     checked: VecDeque<String>,
-    /// The end of the rows in a file that is resumed. The bytes after it are an unfinished row, which is dropped
-    /// before the next row is written.
-    end: Option<u64>,
 }
 
 impl RowTable {
-    /// Opens the file of a table, or standard output where there is none, and writes the names of the columns.
+    /// Opens the file of a table, or standard output where there is none.
     fn open(
         columns: Vec<String>,
         (out, is_json, resume): (Option<&Path>, bool, bool),
     ) -> Result<Self, Failure> {
         let Some(path) = out else {
-            let mut table =
-                Self { columns, is_json, file: None, kept: 0, checked: VecDeque::new(), end: None };
-            table.write_columns()?;
+            let table = Self { columns, is_json, file: None, kept: 0, checked: VecDeque::new() };
+            if !is_json {
+                print(csv_line(&table.columns).trim_end_matches('\n'))?;
+            }
             return Ok(table);
         };
         let is_json = match path.extension().and_then(|ending| ending.to_str()) {
@@ -134,36 +133,26 @@ impl RowTable {
                 return Err(Failure::Usage(text));
             }
         };
-        // This creates missing folders, and its error is the one that other commands have where nothing can be
-        // written.
-        check_writable(path)?;
-        let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", path.display()));
-        let is_resumed = resume && path.exists();
-        let mut options = OpenOptions::new();
-        let file = options.read(true).write(true).create(true).truncate(!is_resumed).open(path);
-        let file = file.map_err(refused)?;
-        let mut table = Self {
-            columns,
-            is_json,
-            file: Some((path.to_owned(), file)),
-            kept: 0,
-            checked: VecDeque::new(),
-            end: None,
-        };
-        if is_resumed {
-            table.take_up().map_err(refused)?
-        } else {
-            table.write_columns()?
-        }
+        let head = if is_json { String::new() } else { csv_line(&columns) };
+        let mut table = Self { columns, is_json, file: None, kept: 0, checked: VecDeque::new() };
+        // The error is the one that other commands have where nothing can be written.
+        table.file = Some(match resume && path.exists() {
+            true => {
+                check_writable(path)?;
+                let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", path.display()));
+                table.taken_up(path, head).map_err(refused)?
+            }
+            false => RowFile::begin(path, head)?,
+        });
         Ok(table)
     }
 
-    /// Counts the rows of a file that is resumed, up to the last whole one.
-    fn take_up(&mut self) -> std::io::Result<()> {
-        let Some((_, file)) = &mut self.file else { return Ok(()) };
+    /// Opens a file that is resumed, and counts its rows up to the last whole one.
+    fn taken_up(&mut self, path: &Path, head: String) -> std::io::Result<RowFile> {
+        let file = OpenOptions::new().read(true).write(true).open(path)?;
         let (mut end, mut lines, mut header) = (0, 0_usize, String::new());
         let mut checked = VecDeque::new();
-        let mut reader = BufReader::new(&*file);
+        let mut reader = BufReader::new(&file);
         loop {
             let mut line = String::new();
             let length = reader.read_line(&mut line)?;
@@ -182,59 +171,105 @@ impl RowTable {
                 checked.push_back(line);
             }
         }
-        self.end = Some(end);
-        if lines == 0 {
-            return self.write_columns().map_err(std::io::Error::other);
-        }
-        if !self.is_json && header != csv_line(&self.columns) {
+        if lines > 0 && header != head && !self.is_json {
             return Err(std::io::Error::other("its columns are of another sweep; give another --out"));
         }
-        self.kept = lines - usize::from(!self.is_json);
+        self.kept = lines.saturating_sub(usize::from(!self.is_json));
         self.checked = checked;
-        Ok(())
-    }
-
-    fn write_columns(&mut self) -> Result<(), Failure> {
-        if self.is_json { Ok(()) } else { self.put(&csv_line(&self.columns)) }
+        let head = if lines == 0 { head } else { String::new() };
+        Ok(RowFile { path: path.to_owned(), head, rows: Rows::InPlace(file), end })
     }
 
     fn write(&mut self, row: &SweepRow) -> Result<(), Failure> {
+        let line = self.line(row);
+        match self.checked.pop_front() {
+            None => match &mut self.file {
+                None => print(line.trim_end_matches('\n')),
+                Some(file) => file.put(&line),
+            },
+            Some(last) if last == line => Ok(()),
+            Some(_) => Err(another_sweep(self.file.as_ref().map_or(Path::new("-"), |file| &file.path))),
+        }
+    }
+
+    /// Returns the line of a row.
+    fn line(&self, row: &SweepRow) -> String {
         let SweepRow { file, point, numbers, error } = row;
-        let line = if self.is_json {
+        if self.is_json {
             let texts = std::iter::once(*file).chain(point.iter().map(String::as_str));
             let texts =
                 texts.map(|text| text.parse::<f64>().map_or_else(|_| json!(text), |number| json!(number)));
             let values = texts.chain(numbers.iter().map(|number| json!(number))).chain([json!(error)]);
             let mut row: Map<String, Value> = self.columns.iter().cloned().zip(values).collect();
             row.insert("file".into(), json!(file));
-            format!("{}\n", Value::Object(row))
-        } else {
-            let texts = std::iter::once((*file).to_owned()).chain(point.iter().cloned());
-            let number = |number: &Option<f64>| number.map_or(String::new(), |number| format!("{number:.7}"));
-            let numbers = numbers.iter().map(number);
-            let row: Vec<String> = texts.chain(numbers).chain([(*error).to_owned()]).collect();
-            csv_line(&row)
-        };
-        match self.checked.pop_front() {
-            None => self.put(&line),
-            Some(last) if last == line => Ok(()),
-            Some(_) => Err(another_sweep(self.file.as_ref().map_or(Path::new("-"), |(path, _)| path))),
+            return format!("{}\n", Value::Object(row));
         }
+        let texts = std::iter::once((*file).to_owned()).chain(point.iter().cloned());
+        let number = |number: &Option<f64>| number.map_or(String::new(), |number| format!("{number:.7}"));
+        let numbers = numbers.iter().map(number);
+        let row: Vec<String> = texts.chain(numbers).chain([(*error).to_owned()]).collect();
+        csv_line(&row)
+    }
+}
+
+/// A file that takes rows one after the other. It appears, and replaces a file of its name, with its first row; it holds whole
+/// rows at any time, also where a row could not be written.
+struct RowFile {
+    path: PathBuf,
+    /// The names of the columns, which are written before the first row.
+    head: String,
+    rows: Rows,
+    /// The end of the last whole row. What a file that is resumed holds after it is dropped before the next row is written.
+    end: u64,
+}
+
+/// The place of a file's rows.
+enum Rows {
+    /// A file that takes the place of the path with its first row.
+    Begun(Box<WholeFile>),
+    InPlace(File),
+    /// There is no file any more, since its first row could not be written.
+    Nowhere,
+}
+
+impl RowFile {
+    fn begin(path: &Path, head: String) -> Result<Self, Failure> {
+        let rows = Rows::Begun(Box::new(WholeFile::begin(path)?));
+        Ok(Self { path: path.to_owned(), head, rows, end: 0 })
     }
 
     fn put(&mut self, line: &str) -> Result<(), Failure> {
-        match &mut self.file {
-            None => print(line.trim_end_matches('\n')),
-            Some((path, file)) => {
-                let dropped = self.end.take().map_or(Ok(()), |end| {
-                    file.set_len(end)?;
-                    file.seek(SeekFrom::Start(end)).map(drop)
-                });
-                let written = dropped.and_then(|()| file.write_all(line.as_bytes()));
-                written.map_err(|error| Failure::Output(format!("{}: {error}", path.display())))
+        let text = std::mem::take(&mut self.head) + line;
+        let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", self.path.display()));
+        match std::mem::replace(&mut self.rows, Rows::Nowhere) {
+            Rows::Begun(mut begun) => {
+                begun.write_all(text.as_bytes()).map_err(refused)?;
+                self.rows = begun.finish_open()?.map_or(Rows::Nowhere, Rows::InPlace);
             }
+            Rows::InPlace(mut file) => {
+                let written = add(&mut file, self.end, &text);
+                if written.is_err() {
+                    // Rows that are whole can be resumed.
+                    let _ = file.set_len(self.end);
+                }
+                self.rows = Rows::InPlace(file);
+                written.map_err(refused)?;
+            }
+            Rows::Nowhere => {}
         }
+        self.end += text.len() as u64;
+        Ok(())
     }
+}
+
+/// Writes text at a place of a file, in which nothing follows.
+fn add(file: &mut File, at: u64, text: &str) -> std::io::Result<()> {
+    // A pipe has no length and no places.
+    if file.metadata()?.is_file() {
+        file.set_len(at)?;
+        file.seek(SeekFrom::Start(at))?;
+    }
+    file.write_all(text.as_bytes())
 }
 
 /// Returns whether a row has measures: its last column, the error, is empty.

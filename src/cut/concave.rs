@@ -25,10 +25,10 @@ fn names_concave(text: &str) -> bool {
 impl Tiers {
     /// Returns a warning where instructions, headers or footers name concave facets; `None` where no text does.
     pub fn concave_warning(&self) -> Option<String> {
-        let cut = (1..).zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
-        let named = cut.filter(|(_, tier)| names_concave(&tier.instructions)).map(|(number, tier)| {
-            format!("tier {number} ({}) '{}'", tier.called(number), quoted(&tier.instructions))
-        });
+        let cut = (1..).zip(self.names()).zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
+        let named = cut
+            .filter(|(_, tier)| names_concave(&tier.instructions))
+            .map(|((number, name), tier)| format!("tier {number} ({name}) '{}'", quoted(&tier.instructions)));
         let texts = self.headers.iter().chain(&self.footers).filter(|text| names_concave(text));
         let places: Vec<String> = named.chain(texts.map(|text| format!("'{}'", quoted(text)))).collect();
         let (first, others) = places.split_first()?;

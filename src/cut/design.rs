@@ -12,7 +12,7 @@ pub const DEFAULT_DIAMETER_MM: f64 = 6.5;
 pub const MAX_PLANES: usize = 10_000;
 
 /// The girdle diameters that a design may have, mm.
-pub(super) const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
+pub const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 
 /// A stone in a file: its cut, its material and its size.
 #[derive(Debug, Clone, PartialEq)]

@@ -23,7 +23,7 @@ impl MeshShape {
     pub fn framed(mesh: &TriangleMesh, turn: DQuat) -> Option<(Self, f64)> {
         let corners: Vec<DVec3> = mesh.vertices().iter().map(|&v| turn * v).collect();
         let around = hull(corners.iter().map(|v| v.truncate()).collect());
-        let Calipers { width, middle, .. } = Calipers::along_mirror(&around)?;
+        let Calipers { width, middle, .. } = Calipers::of_stone(&around)?;
         let (low, high) = span(corners.iter().map(|v| v.z));
         let scale = 2.0 / outline::diameter(&around, middle, width);
         let shift = -scale * middle.extend((low + high) / 2.0);

@@ -20,6 +20,7 @@ mod family_body;
 mod family_cut;
 pub mod from_mesh;
 mod frosting;
+mod girdle_at_mains;
 mod glass;
 mod glass_solid;
 mod glass_table;
@@ -47,10 +48,12 @@ mod tier_change;
 mod tiers;
 mod warning;
 
-pub use audit::{Audit, AuditSubject, Finding, FindingKind, FindingUnit};
+pub use audit::{
+    Audit, AuditSubject, Finding, FindingKind, FindingUnit, NEAR_MISS, SMALL_FACET, SmallestParts,
+};
 pub use beyond_gear::BeyondGear;
 pub use class_estimate::{BrilliantProportions, ClassEstimate, ClassLimit, CutClass, NearbyClass};
-pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
+pub use design::{DEFAULT_DIAMETER_MM, DIAMETERS_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use facet_net::NoRoom;
 pub use facet_zones::FacetZones;
 pub use families::{BY_TIERS, FAMILIES, GROUPS};

@@ -1,6 +1,7 @@
 //! The measures of a stone of any cut: length, width, the girdle's edges, depths and table.
 
 use super::facet_zones::FacetZones;
+use super::girdle_at_mains::Girdle;
 use crate::math::{Calipers, Edge, Facet, Polytope, SolidRef, bounds, hull};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -8,8 +9,9 @@ use serde::Serialize;
 /// A round outline's corners lie at least this part of the largest radius from its middle.
 const ON_CIRCLE: f64 = 0.99;
 
-/// The width of a round outline is at least this part of its diameter.
-pub(super) const ROUND: f64 = 0.95;
+/// The width of a round outline is at least this part of its diameter: midway between an octagon, which is 0.924 wide, and a
+/// heptagon or decagon of 0.951, so that noise does not decide which is round.
+pub(super) const ROUND: f64 = 0.937;
 
 /// The part of the corners of the girdle's facets that lie beyond each of its edges.
 ///
@@ -30,18 +32,23 @@ pub struct Outline {
     pub length: f64,
     /// The least distance between two parallel lines that hold the stone, seen along the axis. Where the outline is its own
     /// mirror image and this direction is oblique to it, as on a kite, it is the smaller of the extents along the mirror
-    /// line and square to it.
+    /// line and square to it. Of directions that are almost equally narrow, the longer one counts
+    /// ([`Calipers::of_stone`]).
     pub width: f64,
     /// The length by which sizes and percentages are measured.
     ///
     /// For a round stone it is the diameter of the circle that holds the corners of its outline; for any other it is the
     /// width. A stone is round if all corners of its outline lie on that circle to within 1 % of its radius, and its width
-    /// is at least 95 % of its diameter: one of ten sides is, one of eight is not.
+    /// is at least 93.7 % of its diameter: one of ten sides is, one of eight is not.
     pub diameter: f64,
-    /// The height z of the girdle's lower edge.
+    /// The height z of the girdle's lower edge, below which a tenth of the corners of its facets lie. Cutters' ratios count
+    /// from there.
     pub girdle_bottom: f64,
-    /// The height z of the girdle's upper edge.
+    /// The height z of the girdle's upper edge, above which a tenth of the corners of its facets lie.
     pub girdle_top: f64,
+    /// The heights z of the girdle's lower and upper edge at the mains, from which the trade counts proportions: the mean of
+    /// the places where the edge lies lower, or higher, than on either side. Those of the edges where the stone has no girdle.
+    pub girdle_at_mains: [f64; 2],
     /// The height z of the lowest point.
     pub bottom: f64,
     /// The height z of the highest point.
@@ -63,7 +70,7 @@ impl Outline {
         // A solid so thin that rounding leaves no outline is measured along its axes.
         let outline = hull(stone.vertices().iter().map(|v| v.truncate()).collect());
         let Calipers { length, width, middle, .. } =
-            Calipers::along_mirror(&outline).unwrap_or_else(|| Calipers {
+            Calipers::of_stone(&outline).unwrap_or_else(|| Calipers {
                 length: across.max_element(),
                 width: across.truncate().min_element(),
                 across: DVec2::X,
@@ -71,14 +78,17 @@ impl Outline {
             });
         let (girdle_bottom, girdle_top) = girdle(stone, SAME_CORNER * width);
         let facet = table(stone);
+        let radius = round_diameter(&outline, middle, width).map(|diameter| diameter / 2.0);
+        let at_mains = Girdle { stone, middle, width, radius }.edges();
         let flat = |facet| hull(stone.corners(facet).map(DVec3::truncate).collect());
-        let table = facet.and_then(|facet| Calipers::along_mirror(&flat(facet)));
+        let table = facet.and_then(|facet| Calipers::of_stone(&flat(facet)));
         Self {
             length,
             width,
-            diameter: diameter(&outline, middle, width),
+            diameter: radius.map_or(width, |radius| 2.0 * radius),
             girdle_bottom,
             girdle_top,
+            girdle_at_mains: at_mains.unwrap_or((girdle_bottom, girdle_top)).into(),
             bottom: low.z,
             top: high.z,
             table: table.map_or([0.0; 2], |found| [found.width, found.length]),
@@ -87,39 +97,57 @@ impl Outline {
         }
     }
 
-    /// Returns the depth from the girdle's lower edge to the lowest point.
+    /// Returns the depth from the girdle's lower edge at the mains to the lowest point.
     pub fn pavilion_depth(&self) -> f64 {
-        self.girdle_bottom - self.bottom
+        self.girdle_at_mains[0] - self.bottom
     }
 
-    /// Returns the height from the girdle's upper edge to the highest point.
+    /// Returns the thickness of the girdle at the mains.
+    pub fn girdle_thickness(&self) -> f64 {
+        self.girdle_at_mains[1] - self.girdle_at_mains[0]
+    }
+
+    /// Returns the height from the girdle's upper edge at the mains to the highest point.
     pub fn crown_height(&self) -> f64 {
-        self.top - self.girdle_top
+        self.top - self.girdle_at_mains[1]
     }
 }
 
-/// The ratios that GemCad prints of a stone. GemCad measures along the axes of the design, whichever way the stone lies.
+/// The ratios that cutters' diagrams print of a stone. GemCad measures along the axes of the design, whichever way the stone
+/// lies. W is the smaller of the stone's extents along x and y.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AlongAxes {
     /// L/W: the larger of the stone's extents along x and y, divided by the smaller.
     pub length_to_width: f64,
     /// T/W and U/W: the table's extents along x and y, in percent of the smaller extent of the stone; 0 without a table.
     pub table: [f64; 2],
+    /// P/W: the depth of the pavilion below [the girdle's edge](Outline::girdle_bottom).
+    pub pavilion_to_width: f64,
+    /// G/W: the height between the girdle's edges.
+    pub girdle_to_width: f64,
+    /// C/W: the height of the crown above [the girdle's edge](Outline::girdle_top).
+    pub crown_to_width: f64,
+    /// H/W = P/W + G/W + C/W.
+    pub height_to_width: f64,
 }
 
 impl AlongAxes {
-    /// Measures a stone that lies as in its design.
-    pub fn of(stone: &Polytope) -> Self {
+    /// Measures a stone that lies as in its design and has this outline.
+    pub fn of(stone: &Polytope, outline: &Outline) -> Self {
         let (low, high) = stone.bounds();
         let across = (high - low).truncate();
         let table = table(stone).map_or(DVec2::ZERO, |facet| {
             let (low, high) = bounds(stone.corners(facet));
             (high - low).truncate()
         });
-        let percent = 100.0 / across.min_element();
+        let width = across.min_element();
         Self {
-            length_to_width: across.max_element() / across.min_element(),
-            table: (percent * table).to_array(),
+            length_to_width: across.max_element() / width,
+            table: (100.0 / width * table).to_array(),
+            pavilion_to_width: (outline.girdle_bottom - outline.bottom) / width,
+            girdle_to_width: (outline.girdle_top - outline.girdle_bottom) / width,
+            crown_to_width: (outline.top - outline.girdle_top) / width,
+            height_to_width: (outline.top - outline.bottom) / width,
         }
     }
 }
@@ -197,18 +225,21 @@ mod tests {
 
     #[test]
     fn a_brilliant_measures_what_it_was_made_to() {
-        for girdle_facets in [16, 64, 96] {
+        for girdle_facets in [16, 24, 64, 96, 101, 128] {
             let measured = Outline::of(&stone(RoundBrilliant { girdle_facets, ..MODERN }));
             let derived = MODERN.derived().unwrap();
             // The table is an octagon, whose corners lie on a circle of the table's size.
             let flats = MODERN.table / 100.0 * (std::f64::consts::PI / 8.0).cos();
             assert!((measured.table[0] / 2.0 - flats).abs() < 1e-12, "{measured:?}");
             assert!((measured.table_corners / 2.0 - MODERN.table / 100.0).abs() < 1e-12, "{measured:?}");
-            assert!(
-                (measured.crown_height() / 2.0 - derived.crown_height / 100.0).abs() < 0.01,
-                "{measured:?} {derived:?}"
-            );
-            assert!((measured.pavilion_depth() / 2.0 - derived.pavilion_depth / 100.0).abs() < 0.01);
+            let depths = [measured.crown_height(), measured.girdle_thickness(), measured.pavilion_depth()];
+            let given = [derived.crown_height, MODERN.girdle_thickness, derived.pavilion_depth];
+            for (depth, given) in depths.into_iter().zip(given) {
+                assert!(
+                    (depth / 2.0 - given / 100.0).abs() < 1e-12,
+                    "{girdle_facets}: {measured:?} {derived:?}"
+                );
+            }
             let sides = 2.0 * (std::f64::consts::PI / f64::from(girdle_facets)).cos();
             assert!((measured.length - sides).abs() < 1e-12 && (measured.width - sides).abs() < 1e-12);
             assert!((measured.diameter - 2.0).abs() < 1e-12, "{measured:?}");
@@ -245,8 +276,9 @@ mod tests {
             assert!(pairs.iter().all(|(a, b)| (a - b).abs() < 1e-12), "{step}: {again:?} {plain:?}");
         }
         // GemCad's figures do depend on the turn; if they did not, this test would show nothing.
-        let turned = AlongAxes::of(&stone.reframed(&Pose::turned(glam::DQuat::from_rotation_z(0.5))));
-        assert!((turned.length_to_width - AlongAxes::of(&stone).length_to_width).abs() > 0.1);
+        let along = |stone: &Polytope| AlongAxes::of(stone, &Outline::of(stone)).length_to_width;
+        let turned = along(&stone.reframed(&Pose::turned(glam::DQuat::from_rotation_z(0.5))));
+        assert!((turned - along(&stone)).abs() > 0.1);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A report of a stone's facets: its tiers with the spread of their slopes, as laboratories report scanned stones.
+//! A report of a stone's facets: its tiers with the spread of their slopes.
 
 use super::facet_zones::{EXACT, FacetZones};
 use super::outline::{AlongAxes, Outline};
@@ -50,19 +50,19 @@ pub struct ProportionReport {
     pub table: [f64; 2],
     /// The greatest distance between two corners of the table.
     pub table_corners: f64,
-    /// The height from the girdle's upper edge to the highest point.
+    /// The height from the girdle's upper edge at the mains to the highest point, as a design gives it.
     pub crown_height: f64,
-    /// The distance between the girdle's edges.
+    /// The distance between the girdle's edges at the mains, as a design gives it.
     pub girdle_thickness: f64,
     /// The lengths of the edges between two facets of the girdle; `None` where it has none.
     pub girdle_edges: Option<Spread>,
-    /// The depth from the girdle's lower edge to the lowest point.
+    /// The depth from the girdle's lower edge at the mains to the lowest point, as a design gives it.
     pub pavilion_depth: f64,
     /// The height from the lowest point to the highest.
     pub total_depth: f64,
     /// The tiers, in the order of their first facets.
     pub tiers: Vec<TierReport>,
-    /// The ratios that GemCad prints of the stone.
+    /// The ratios that cutters' diagrams print of the stone.
     pub along_axes: AlongAxes,
 }
 
@@ -76,12 +76,12 @@ impl ProportionReport {
             table: outline.table.map(percent),
             table_corners: percent(outline.table_corners),
             crown_height: percent(outline.crown_height()),
-            girdle_thickness: percent(outline.girdle_top - outline.girdle_bottom),
+            girdle_thickness: percent(outline.girdle_thickness()),
             girdle_edges: girdle_edges(stone, percent),
             pavilion_depth: percent(outline.pavilion_depth()),
             total_depth: percent(outline.top - outline.bottom),
             tiers: tiers(stone, names),
-            along_axes: AlongAxes::of(stone),
+            along_axes: AlongAxes::of(stone, &outline),
         }
     }
 }

@@ -41,14 +41,14 @@ impl Cut {
         match self {
             Self::RoundBrilliant(_) | Self::Family(_) | Self::Mesh(_) | Self::Glass(_) => vec![],
             Self::Tiers(design) => {
-                let numbered = (1..).zip(&design.tiers).filter(|(_, tier)| tier.is_cut);
-                let setting = |(number, tier): (usize, &super::Tier)| MachineSetting {
-                    name: tier.called(number),
+                let named = design.names().into_iter().zip(&design.tiers).filter(|(_, tier)| tier.is_cut);
+                let setting = |(name, tier): (String, &super::Tier)| MachineSetting {
+                    name,
                     facets: tier.facets.len(),
                     angle: tier.angle,
                     distance: tier.distance,
                 };
-                numbered.map(setting).collect()
+                named.map(setting).collect()
             }
             Self::Planes(planes) => groups(planes).iter().map(|group| mean(planes, group)).collect(),
         }

@@ -11,8 +11,8 @@ use serde::Serialize;
 /// The ratios and counts of a stone that stand at the top of a cutter's sheet.
 ///
 /// All lengths are measured along the axes of the design: W is the smaller and L the larger of the stone's extents along x
-/// and y, T and U are the extents of the table along x and y, P, G and C are the heights of pavilion, girdle and crown as
-/// [`Outline`] finds them, and H is the whole height, P + G + C. Ratios have no unit and are 0 or more; without a table T
+/// and y, T and U are the extents of the table along x and y, P, G and C are the heights of pavilion, girdle and crown between
+/// the girdle's edges as [`AlongAxes`] has them, and H is the whole height, P + G + C. Ratios have no unit and are 0 or more; without a table T
 /// and U are 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SheetFigures {
@@ -48,10 +48,9 @@ pub struct SheetFigures {
 impl SheetFigures {
     /// Measures a stone that lies as in its design, with the names of its facets in their order.
     pub fn of(stone: &Polytope, names: &[String]) -> Self {
-        let (outline, along) = (Outline::of(stone), AlongAxes::of(stone));
+        let along = AlongAxes::of(stone, &Outline::of(stone));
         let (low, high) = stone.bounds();
         let width = (high - low).truncate().min_element();
-        let height = outline.top - outline.bottom;
         let [table, table_across] = along.table.map(|percent| percent / 100.0);
         let zones = FacetZones::of(stone);
         let count = |wanted: bool| {
@@ -64,12 +63,12 @@ impl SheetFigures {
             table_to_width: table,
             table_to_length: table / along.length_to_width,
             table_across_to_width: table_across,
-            pavilion_to_width: outline.pavilion_depth() / width,
-            crown_to_width: outline.crown_height() / width,
-            girdle_to_width: (outline.girdle_top - outline.girdle_bottom) / width,
-            height_to_width: height / width,
-            pavilion_to_height: outline.pavilion_depth() / height,
-            crown_to_height: outline.crown_height() / height,
+            pavilion_to_width: along.pavilion_to_width,
+            crown_to_width: along.crown_to_width,
+            girdle_to_width: along.girdle_to_width,
+            height_to_width: along.height_to_width,
+            pavilion_to_height: along.pavilion_to_width / along.height_to_width,
+            crown_to_height: along.crown_to_width / along.height_to_width,
             volume_to_width_cubed: stone.volume() / width.powi(3),
             facets: count(false),
             girdle_facets: count(true),

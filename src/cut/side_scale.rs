@@ -294,15 +294,14 @@ pub(super) fn in_block(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
 /// Returns a cutter's design after a change of one side.
 pub(super) fn changed_tiers(tiers: &Tiers, change: &AngleChange) -> Result<Tiers, ScaleError> {
     let mut changed = tiers.clone();
-    for (number, tier) in (1..).zip(&mut changed.tiers) {
-        let name = || tier.called(number);
+    for (name, tier) in tiers.names().into_iter().zip(&mut changed.tiers) {
         let plane = tiers.plane(tier, 0.0);
-        let refused = |[before, after]: [f64; 2]| ScaleError::Angle { tier: name(), before, after };
+        let refused = |[before, after]: [f64; 2]| ScaleError::Angle { tier: name.clone(), before, after };
         let plane = change.plane(&plane).map_err(refused)?;
         tier.meet = tier.meet.as_ref().map(|meet| change.meet(meet));
         let Some(plane) = plane else { continue };
         if plane.offset < 0.0 {
-            return Err(ScaleError::Origin { tier: tier.called(number) });
+            return Err(ScaleError::Origin { tier: name });
         }
         if tier.angle != 0.0 {
             let angle = plane.normal.truncate().length().atan2(plane.normal.z.abs()).to_degrees();

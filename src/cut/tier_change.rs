@@ -65,9 +65,13 @@ impl Tiers {
         design.solved()
     }
 
-    /// Makes a change. A place past the last tier changes nothing.
+    /// Makes a change. A place past the last tier changes nothing. Tiers without a name get theirs where a meet may name them,
+    /// as another tier might be called so after the change.
     pub fn change(&mut self, change: TierChange) {
         let count = self.tiers.len();
+        if self.has_named_meets() {
+            *self = std::mem::take(self).with_names();
+        }
         match change {
             TierChange::Insert(place, tier) => self.tiers.insert(place.min(count), tier),
             TierChange::Move(from, to) if from < count && to < count => {
@@ -79,12 +83,12 @@ impl Tiers {
                 if let TierChange::Split(_) = change {
                     copy.facets = self.tiers[place].split_off();
                 }
-                copy.rename(&self.free_name(self.tiers[place].name()));
+                copy.rename(&self.free_name(&self.names()[place]));
                 if !copy.facets.is_empty() {
                     self.tiers.insert(place + 1, copy);
                 }
             }
-            TierChange::FindMeets => *self = self.with_own_meets(),
+            TierChange::FindMeets => *self = self.with_own_meets().with_names_in_meets(),
             TierChange::Gear(teeth) if teeth != 0 => self.change_gear(teeth),
             TierChange::Symmetry(symmetry, mirror) => (self.symmetry, self.mirror) = (symmetry, mirror),
             TierChange::Name(place, name) if place < count => {
@@ -124,6 +128,22 @@ impl Tiers {
         }
     }
 
+    /// Returns the design with instructions that state no other meets than its tiers have: where a tier was found to meet another
+    /// point than its words say, the words become those of its meet.
+    #[must_use]
+    pub fn with_words_of_meets(mut self) -> Self {
+        for place in 0..self.tiers.len() {
+            let stated = self.meet_in_words(place, &self.tiers[place].instructions);
+            if stated.is_some_and(|stated| self.tiers[place].meet.as_ref() != Some(&stated)) {
+                let meet = self.tiers[place].meet.take();
+                if meet.is_some() {
+                    self.change(TierChange::Meet(place, meet));
+                }
+            }
+        }
+        self
+    }
+
     /// Returns the clauses of a tier's instructions that state no meet.
     fn words_beside_meets(&self, place: usize) -> String {
         let text = &self.tiers[place].instructions;
@@ -147,30 +167,33 @@ impl Tiers {
 
     /// Writes a tier's new name into the meets that mean this tier alone by its old one.
     fn rename_in_meets(&mut self, place: usize, name: &str) {
-        let old = self.tiers[place].name().to_owned();
-        let is_only = self.tiers.iter().filter(|tier| tier.name().eq_ignore_ascii_case(&old)).count() == 1;
-        if old.is_empty() || name.is_empty() || !is_only {
+        let names = self.names();
+        let old = &names[place];
+        let is_only = names.iter().filter(|other| other.eq_ignore_ascii_case(old)).count() == 1;
+        if name.is_empty() || !is_only {
             return;
         }
         let points = self.tiers.iter_mut().filter_map(|tier| tier.meet.as_mut());
-        let names = points.flat_map(Meet::names_mut).filter(|own| own.eq_ignore_ascii_case(&old));
+        let names = points.flat_map(Meet::names_mut).filter(|own| own.eq_ignore_ascii_case(old));
         names.for_each(|own| name.clone_into(own));
     }
 
     /// Returns a name like the one given that no tier has: its letters with the next free number.
     pub fn free_name(&self, like: &str) -> String {
         let letters = like.trim_end_matches(|c: char| c.is_ascii_digit());
-        let is_free = |name: &String| self.tiers.iter().all(|tier| tier.name() != name);
+        let names = self.names();
+        let is_free = |name: &String| !names.contains(name);
         (1..).map(|number| format!("{letters}{number}")).find(is_free).unwrap_or_default()
     }
 
     /// Returns the names of the tiers with an index between two teeth of the gear, as far as three decimals show it,
     /// the number that sheets print. Flat tiers have no direction, and are left out.
-    pub fn between_teeth(&self) -> impl Iterator<Item = &str> {
+    pub fn between_teeth(&self) -> Vec<String> {
         let is_flat = |tier: &Tier| matches!(tier.zone(), TierZone::Table | TierZone::Culet);
-        let leaning = self.tiers.iter().filter(move |tier| !is_flat(tier));
         let is_between = |facet: &Indexed| (facet.index - facet.index.round()).abs() >= PRINTED;
-        leaning.filter(move |tier| tier.facets.iter().any(is_between)).map(Tier::name)
+        let named = self.names().into_iter().zip(&self.tiers);
+        let leaning = named.filter(|(_, tier)| !is_flat(tier));
+        leaning.filter(|(_, tier)| tier.facets.iter().any(is_between)).map(|(name, _)| name).collect()
     }
 
     /// Returns the place in the list of the tier that is the one at `number`, from 0, among those that are cut; the length of the

@@ -174,20 +174,10 @@ impl Tier {
         }
     }
 
-    /// Returns the name of the tier: the first name that one of its facets has; empty where none has one.
+    /// Returns the tier's own name: the first that one of its facets has; empty where none has one. [`Tiers::names`] has the
+    /// name by which it is called.
     pub fn name(&self) -> &str {
         self.facets.iter().map(|facet| facet.name.as_str()).find(|name| !name.is_empty()).unwrap_or_default()
-    }
-
-    /// Returns the name that all facets of this tier have before they are numbered: the tier's own name, or else the zone's
-    /// with the number of the tier (table and culet without it).
-    pub(super) fn called(&self, number: usize) -> String {
-        let zone = self.zone();
-        match self.name() {
-            name if names::is_printable(name) => name.to_owned(),
-            _ if matches!(zone, TierZone::Table | TierZone::Culet) => zone.name().to_owned(),
-            _ => format!("{}-{number}", zone.name()),
-        }
     }
 
     fn faces_down(&self) -> bool {
@@ -241,12 +231,12 @@ impl Tiers {
         Plane::new(DVec3::new(across[0], across[1], down * slope_cos), tier.distance.abs())
     }
 
-    /// Returns the facets that are cut, each with a name of its own and its plane in the design's unit.
+    /// Returns the facets that are cut, each with a name of its own, which begins with that of its tier, and its plane in the
+    /// design's unit.
     pub(super) fn facets(&self) -> Vec<(String, Plane)> {
-        let cut = (1..).zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
+        let cut = self.names().into_iter().zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
         let bases: Vec<(String, Plane)> = cut
-            .flat_map(|(number, tier)| {
-                let base = tier.called(number);
+            .flat_map(|(base, tier)| {
                 tier.facets.iter().map(move |facet| (base.clone(), self.plane(tier, facet.index)))
             })
             .collect();
@@ -325,15 +315,15 @@ mod tests {
     }
 
     #[test]
-    fn a_tier_is_called_by_its_first_name_and_else_by_its_place() {
+    fn a_tier_is_called_by_its_first_name_and_else_by_its_zone_and_number() {
         let mut design = square(96, 0.0);
         design.tiers[0].facets[1].name = "G1".to_owned();
         let names: Vec<String> = design.facets().into_iter().map(|(name, _)| name).collect();
-        assert_eq!(names, ["G1 1", "G1 2", "G1 3", "G1 4", "table", "culet"]);
+        assert_eq!(names, ["G1 1", "G1 2", "G1 3", "G1 4", "T", "K"]);
         design.tiers[0].facets[1].name = "\u{7}".to_owned();
         design.tiers[1].is_cut = false;
         let names: Vec<String> = design.facets().into_iter().map(|(name, _)| name).collect();
-        assert_eq!(names, ["girdle-1 1", "girdle-1 2", "girdle-1 3", "girdle-1 4", "culet"]);
+        assert_eq!(names, ["G1 1", "G1 2", "G1 3", "G1 4", "K"]);
     }
 
     #[test]

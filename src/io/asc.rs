@@ -5,25 +5,22 @@
 //! instructions, headers) are kept.
 
 use super::cutters::{self, Gear, WarningList};
-use super::design_file::{EncodedDesign, ImportedDesign};
+use super::design_file::ImportedDesign;
+use super::encoding;
 use super::file_error::Fault;
+use super::numbers::{DecimalCommas, Token};
 use super::text::check_size;
-use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable, with_finish};
-use crate::scene::Specimen;
-use encoding_rs::WINDOWS_1252;
-use number::Token;
+use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers};
 use std::borrow::Cow;
-use std::fmt::Write;
 
-mod number;
 #[cfg(test)]
 mod tests;
+mod write;
+
+pub use write::write;
 
 /// The size of the largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 16 << 20;
-
-/// The number of facets on a line that is written: GemCad's own lines end near there.
-const PER_LINE: usize = 20;
 
 /// The index of refraction of a file that gives none: that of quartz, which most designs are for.
 const USUAL_INDEX: f64 = 1.54;
@@ -34,8 +31,9 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     let mut lines = text.lines().map(str::trim_start).filter(|line| !line.is_empty());
     let first = lines.next().unwrap_or_default();
     let is_facet = |line: &str| {
-        let mut tokens = line.split_ascii_whitespace();
-        tokens.next() == Some("a") && tokens.take(3).filter(|t| Token::of(t).number().is_some()).count() == 3
+        let (letter, rest) = record_of(line.trim_start());
+        letter.eq_ignore_ascii_case("a")
+            && rest.split_whitespace().take(3).filter(|t| Token::of(t).number().is_some()).count() == 3
     };
     first.get(..6).is_some_and(|word| word.eq_ignore_ascii_case("gemcad"))
         || is_facet(first)
@@ -71,12 +69,15 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     reader.brought(label)
 }
 
-/// Decodes UTF-8, or else Windows-1252, and drops the padding that some programs leave.
+/// Decodes text without the padding that some programs leave.
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
-    let text = std::str::from_utf8(bytes)
-        .map_or_else(|_| WINDOWS_1252.decode_without_bom_handling(bytes).0, Cow::Borrowed);
-    let is_padding = |c: char| matches!(c, '\0' | '\u{1a}' | '\u{feff}');
+    let text = encoding::decoded(bytes, None).text;
     if text.contains(is_padding) { Cow::Owned(text.replace(is_padding, "")) } else { text }
+}
+
+/// Returns whether a character only fills up a file or a block of it.
+fn is_padding(c: char) -> bool {
+    matches!(c, '\0' | '\u{1a}' | '\u{feff}')
 }
 
 /// Splits text into lines that end in LF, CRLF or, as on old Macs, CR.
@@ -101,8 +102,7 @@ struct Reader {
     /// A name that was read before the index that it belongs to.
     name: Option<String>,
     count: usize,
-    /// The first number with a decimal comma, the line where it stands, and how many there are.
-    commas: Option<(String, usize, usize)>,
+    commas: DecimalCommas,
     warnings: WarningList,
 }
 
@@ -126,7 +126,7 @@ impl Reader {
         match Token::of(text) {
             Token::Number(number) => Ok(Some(number)),
             Token::WithComma(number) => {
-                self.commas.get_or_insert_with(|| (text.to_owned(), self.number, 0)).2 += 1;
+                self.commas.count(text, self.number);
                 Ok(Some(number))
             }
             Token::Broken => Err(self.fault(format!(
@@ -138,13 +138,13 @@ impl Reader {
     }
 
     fn line(&mut self, line: &str) -> Result<(), Fault> {
-        let trimmed = line.trim_ascii();
+        let trimmed = line.trim();
         let (first, _) = word(trimmed);
         if first.is_empty() {
             return Ok(());
         }
-        let goes_on =
-            Token::of(first).is_numeric() || (line.starts_with([' ', '\t']) && matches!(first, "n" | "G"));
+        // GemCad's own continuations begin with a blank; other programs leave it out.
+        let goes_on = Token::of(first).is_numeric() || (self.in_tier && matches!(first, "n" | "N" | "G"));
         if goes_on && (self.in_tier || self.tiers.is_empty()) {
             return self.go_on(trimmed);
         }
@@ -153,10 +153,10 @@ impl Reader {
         match letter {
             "H" | "h" => self.headers.push(text_after(line)),
             "F" | "f" => self.footers.push(text_after(line)),
-            "g" => self.gear(rest)?,
-            "y" => self.symmetry(rest),
+            "g" | "G" => self.gear(rest)?,
+            "y" | "Y" => self.symmetry(rest),
             "I" | "i" => self.index_of_refraction(rest)?,
-            "a" => self.tier(rest)?,
+            "a" | "A" => self.tier(rest)?,
             _ if first.get(..6).is_some_and(|word| word.eq_ignore_ascii_case("gemcad")) => {}
             _ => self.warn(&format!("'{}' is not a known record and is left out", short(trimmed))),
         }
@@ -176,7 +176,7 @@ impl Reader {
     }
 
     fn gear(&mut self, rest: &str) -> Result<(), Fault> {
-        let mut tokens = rest.split_ascii_whitespace();
+        let mut tokens = rest.split_whitespace();
         let teeth = self.number(tokens.next().unwrap_or_default())?.filter(|teeth| teeth.fract() == 0.0);
         let Some(teeth) = teeth else {
             self.warn(&format!("'{}' is not a gear; a number of teeth is expected", short(rest)));
@@ -191,14 +191,16 @@ impl Reader {
     }
 
     fn symmetry(&mut self, rest: &str) {
-        let mut tokens = rest.split_ascii_whitespace();
-        match tokens.next().map(str::parse::<f64>) {
-            Some(Ok(fold)) if fold.is_finite() => {
+        // The letter of the mirror may follow the number without a blank.
+        let end = rest.find(|c: char| c.is_whitespace() || c.is_alphabetic()).unwrap_or(rest.len());
+        let (fold, mirror) = rest.split_at(end);
+        match Token::of(fold.trim_end_matches([',', ';'])) {
+            Token::Number(fold) if fold.is_finite() => {
                 self.symmetry = Some(cutters::symmetry(fold as i32, &self.place(), &mut self.warnings));
             }
             _ => self.warn(&format!("'{}' is not a symmetry; a number is expected", short(rest))),
         }
-        self.mirror = tokens.next().is_some_and(|word| word.starts_with(['y', 'Y']));
+        self.mirror = word(mirror).0.starts_with(['y', 'Y']);
     }
 
     fn index_of_refraction(&mut self, rest: &str) -> Result<(), Fault> {
@@ -238,22 +240,25 @@ impl Reader {
 
     /// Reads indices, names and instructions of the open tier.
     fn facets(&mut self, line: &str) -> Result<(), Fault> {
-        let mut rest = line.trim_ascii_start();
+        let mut rest = line.trim_start();
         while !rest.is_empty() {
             let (token, after) = word(rest);
-            rest = after.trim_ascii_start();
             match token {
-                "G" => {
+                "G" | "g" => {
                     self.instructions(after);
                     break;
                 }
-                "n" => {
-                    let (name, after) = word(rest);
-                    rest = after.trim_ascii_start();
+                "n" | "N" => {
+                    let (name, after) = word(after);
+                    rest = after;
                     self.named(name);
                 }
-                _ => self.index(token)?,
+                _ => {
+                    rest = after;
+                    self.index_or_glued(token)?;
+                }
             }
+            rest = rest.trim_start();
         }
         Ok(())
     }
@@ -263,7 +268,7 @@ impl Reader {
         if !tier.instructions.is_empty() {
             tier.instructions.push(' ');
         }
-        tier.instructions.push_str(text.trim_ascii_end());
+        tier.instructions.push_str(text.trim_end());
     }
 
     fn named(&mut self, name: &str) {
@@ -283,7 +288,22 @@ impl Reader {
         }
     }
 
+    /// Reads an index, a name that follows its letter without a blank, or an index and such a name.
+    fn index_or_glued(&mut self, token: &str) -> Result<(), Fault> {
+        let (index, name) = token.split_once(['n', 'N']).map_or((token, None), |(a, b)| (a, Some(b)));
+        let is_glued =
+            (index.is_empty() || Token::of(index).number().is_some()) && !Token::of(token).is_numeric();
+        let Some(name) = name.filter(|_| is_glued) else { return self.index(token) };
+        if !index.is_empty() {
+            self.index(index)?;
+        }
+        self.named(name);
+        Ok(())
+    }
+
     fn index(&mut self, token: &str) -> Result<(), Fault> {
+        // A list may have commas as well as blanks.
+        let token = if token.len() > 1 { token.trim_end_matches([',', ';']) } else { token };
         let Some(tier) = self.tiers.last_mut() else { return Ok(()) };
         match Token::of(token) {
             Token::Number(index) if index.is_finite() => {
@@ -318,23 +338,11 @@ impl Reader {
         }
     }
 
-    fn warn_of_commas(&mut self) {
-        let Some((first, line, count)) = self.commas.take() else { return };
-        let number = first.replace(',', ".");
-        let others = match count - 1 {
-            0 => String::new(),
-            others => format!(", and so are {others} more numbers"),
-        };
-        self.warnings.warn(|| {
-            format!("line {line}: '{first}' has a decimal comma and is read as {number}{others}; write decimal points")
-        });
-    }
-
     fn brought(mut self, label: &str) -> Result<ImportedDesign, Fault> {
         let mut missing = |what: bool, text: &str| what.then(|| self.warnings.warn(|| text.to_owned()));
         missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is assumed");
         missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is assumed");
-        self.warn_of_commas();
+        self.commas.warn(&mut self.warnings);
         let name = cutters::title(&self.headers, label);
         let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.warnings);
         let mut tiers = Tiers {
@@ -356,123 +364,30 @@ impl Reader {
 
 /// Parts a text into its first word and the rest after the blank.
 fn word(text: &str) -> (&str, &str) {
-    let text = text.trim_ascii_start();
-    text.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((text, ""))
+    let text = text.trim_start();
+    text.split_once(char::is_whitespace).unwrap_or((text, ""))
 }
 
-/// Parts a record into its letter and the rest. A number may follow g, y, I and a without a blank.
+/// Parts a record into its letter and the rest. A number may follow g, y, I and a without a blank, and y or n the number of
+/// a symmetry.
 fn record_of(line: &str) -> (&str, &str) {
     let (first, rest) = word(line);
-    let is_glued = first.starts_with(['g', 'y', 'I', 'a']) && first[1..].parse::<f64>().is_ok();
-    if is_glued { line.split_at(1) } else { (first, rest.trim_ascii_start()) }
+    let glued = first.strip_prefix(['g', 'G', 'y', 'Y', 'I', 'i', 'a', 'A']);
+    let number = glued.map(|glued| match first.starts_with(['y', 'Y']) {
+        true => glued.trim_end_matches(['y', 'Y', 'n', 'N', ',', ';']),
+        false => glued,
+    });
+    let is_glued = number.is_some_and(|number| Token::of(number).is_numeric());
+    if is_glued { line.split_at(1) } else { (first, rest.trim_start()) }
 }
 
 /// Returns the text behind a record's letter and one blank.
 fn text_after(line: &str) -> String {
-    let rest = &line.trim_ascii_start()[1..];
+    let rest = &line.trim_start()[1..];
     rest.strip_prefix([' ', '\t']).unwrap_or(rest).to_owned()
 }
 
 /// Returns as much of a text as fits into a message.
 fn short(text: &str) -> String {
     text.chars().take(40).collect()
-}
-
-/// Encodes the design of a specimen as a GemCad text file.
-pub fn write(specimen: &Specimen) -> EncodedDesign {
-    let mut lost = vec![];
-    let tiers = cutters::tiers_of(specimen, &mut lost).into_owned();
-    let ri = cutters::refractive_index(specimen, &mut lost);
-    let title = tiers.headers.iter().find(|header| is_printable(header.trim()));
-    cutters::untold(&specimen.design, title, &mut lost);
-    let mut out = String::from("GemCad 5.0\n");
-    let _ = writeln!(out, "g {} {:?}", tiers.gear, tiers.offset);
-    let _ = writeln!(out, "y {} {}", tiers.symmetry, if tiers.mirror { 'y' } else { 'n' });
-    let _ = writeln!(out, "I {ri}");
-    let mut texts = Texts::default();
-    for header in &tiers.headers {
-        let _ = writeln!(out, "{}", record('H', &texts.line(header)));
-    }
-    for tier in tiers.tiers.iter().filter(|tier| tier.is_cut && !tier.facets.is_empty()) {
-        write_tier(&mut out, tier, &mut texts);
-    }
-    for footer in &tiers.footers {
-        let _ = writeln!(out, "{}", record('F', &texts.line(footer)));
-    }
-    lost.extend(texts.lost());
-    lost.extend(left_out(&tiers));
-    EncodedDesign { bytes: encoded(out), lost }
-}
-
-/// Returns messages about the parts of a design's tiers that the format cannot hold.
-fn left_out(tiers: &Tiers) -> Vec<String> {
-    let uncut = tiers.tiers.iter().filter(|tier| !tier.is_cut || tier.facets.is_empty()).count();
-    let keys: Vec<&str> = tiers.remarks.keys().map(String::as_str).collect();
-    let mut lost = vec![];
-    if uncut > 0 {
-        lost.push(format!("{uncut} tiers that cut nothing are left out"));
-    }
-    if !keys.is_empty() {
-        lost.push(format!("the format cannot hold these remarks: {}", keys.join(", ")));
-    }
-    lost
-}
-
-/// Fits texts into lines and words, and remembers the changes.
-#[derive(Default)]
-struct Texts {
-    are_joined: bool,
-    are_filled: bool,
-}
-
-impl Texts {
-    /// Returns the text on one line, with a blank in place of each line break.
-    fn line(&mut self, text: &str) -> String {
-        let breaks = |c: char| matches!(c, '\n' | '\r' | '\0' | '\u{1a}' | '\u{feff}');
-        self.are_joined |= text.contains(breaks);
-        text.replace(breaks, " ")
-    }
-
-    /// Returns the text as one word, with `_` in place of each blank.
-    fn word(&mut self, text: &str) -> String {
-        let blank = |c: char| c.is_whitespace() || c.is_control();
-        self.are_filled |= text.contains(blank);
-        text.replace(blank, "_")
-    }
-
-    fn lost(&self) -> impl Iterator<Item = String> {
-        let joined = self.are_joined.then_some("lines within a text are joined");
-        let filled = self.are_filled.then_some("blanks in names of facets become _");
-        joined.into_iter().chain(filled).map(str::to_owned)
-    }
-}
-
-/// Encodes text in Windows-1252, which GemCad expects, or in UTF-8 where Windows-1252 cannot hold the text or its bytes
-/// would be read as UTF-8.
-fn encoded(text: String) -> Vec<u8> {
-    let (bytes, _, is_lossy) = WINDOWS_1252.encode(&text);
-    let is_read_as_utf8 = !text.is_ascii() && std::str::from_utf8(&bytes).is_ok();
-    if is_lossy || is_read_as_utf8 { text.into_bytes() } else { bytes.into_owned() }
-}
-
-fn record(letter: char, text: &str) -> String {
-    if text.is_empty() { letter.to_string() } else { format!("{letter} {text}") }
-}
-
-fn write_tier(out: &mut String, tier: &Tier, texts: &mut Texts) {
-    let _ = write!(out, "a {} {}", tier.angle, tier.distance);
-    for (k, facet) in tier.facets.iter().enumerate() {
-        if k > 0 && k % PER_LINE == 0 {
-            out.push('\n');
-        }
-        let _ = write!(out, " {}", facet.index);
-        if !facet.name.is_empty() {
-            let _ = write!(out, " n {}", texts.word(&facet.name));
-        }
-    }
-    let instruction = with_finish(tier.instruction(), tier.frosting);
-    if !instruction.is_empty() {
-        let _ = write!(out, " G {}", texts.line(&instruction));
-    }
-    out.push('\n');
 }

@@ -3,7 +3,7 @@
 use super::background::BackgroundRef;
 use super::built_design::BuiltDesign;
 use super::mesh::read_shaded;
-use super::mesh_options::MeshOptions;
+use super::mesh_options::{MeshOptions, MeshPart};
 use super::scene_file::{self, Entry, MetalEntry, SceneFile};
 use super::{Failure, is_standard, library};
 use crate::cut::{Design, MaterialRef, Size};
@@ -130,7 +130,7 @@ impl Assembly {
         material: Option<&MaterialRef>,
         size: Option<Size>,
     ) -> Result<Self, Failure> {
-        let BuiltDesign { path, made, remarks } = stone;
+        let BuiltDesign { path, made, remarks, .. } = stone;
         let refused = |message| Failure::Input(format!("{path}: {message}"));
         let named = named_material(&made, material, None).map_err(refused)?;
         let diameter_mm = diameter_mm(&made, &named.1, size).map_err(refused)?;
@@ -168,7 +168,7 @@ impl Assembly {
         let mut remarks = vec![];
         let specimens = specimens(file, &scene, mesh, &mut remarks)?;
         let member = |(number, entry): (usize, &Entry)| {
-            let specimen = &specimens[&entry.cut];
+            let specimen = &specimens[&(entry.cut.clone(), entry.part)];
             let description = format!("stone {} ({})", number + 1, entry.cut);
             member(specimen, entry, material, size.or(entry.size), description)
                 .map_err(|message| at_entry(file, number, entry, &message))
@@ -234,7 +234,9 @@ impl Assembly {
 
     /// Returns the weight of all stones together, in carats; `None` if one has no density.
     pub fn carats(&self) -> Option<f64> {
-        self.scene.instances.iter().map(|stone| stone.carats(self.scene.unit_mm)).sum()
+        // A sum of no numbers begins at -0.
+        let mut stones = self.scene.instances.iter().map(|stone| stone.carats(self.scene.unit_mm));
+        stones.try_fold(0.0, |sum, carats| Some(sum + carats?))
     }
 }
 
@@ -248,32 +250,42 @@ fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
     Ok(known.transpose()?)
 }
 
-/// Reads each cut of a scene once. The keys are the names by which the scene calls the cuts.
+/// The name by which a scene calls a cut, and the body of it where it is a mesh of several.
+type CutKey = (String, MeshPart);
+
+/// Reads each cut of a scene once, and each of its bodies that the scene takes.
 fn specimens(
     file: &Path,
     scene: &SceneFile,
     mesh: MeshOptions,
     remarks: &mut Vec<String>,
-) -> Result<BTreeMap<String, Arc<Specimen>>, Failure> {
+) -> Result<BTreeMap<CutKey, Arc<Specimen>>, Failure> {
     let mut specimens = BTreeMap::new();
     let failed = |failure: Failure, place: &dyn Fn(&str) -> Failure| match failure {
         Failure::Input(message) => place(&message),
         other => other,
     };
     for (number, entry) in scene.stones.iter().enumerate() {
-        if !specimens.contains_key(&entry.cut) {
+        let key = (entry.cut.clone(), entry.part);
+        if !specimens.contains_key(&key) {
+            // A scene that names no body leaves it to the options.
+            let part = if entry.part == MeshPart::Found { mesh.part } else { entry.part };
+            let mesh = MeshOptions { part, ..mesh };
             let at = |message: &str| at_entry(file, number, entry, &format!("cut: {message}"));
+            let mut same = scene.stones.iter().filter(|other| other.cut == entry.cut);
+            let mesh = if same.all(|other| other.size.is_some()) { mesh.sized(entry.size) } else { mesh };
             let read = built(file, &entry.cut, mesh).map_err(|failure| failed(failure, &at))?;
             remarks.extend(read.remarks);
-            specimens.insert(entry.cut.clone(), Arc::new(read.made));
+            specimens.insert(key, Arc::new(read.made));
         }
     }
     for (key, cut, line) in scene.ring.iter().flat_map(ring::cuts) {
-        if !specimens.contains_key(cut) {
+        let own = (cut.to_owned(), MeshPart::Found);
+        if !specimens.contains_key(&own) {
             let at = |message: &str| ring::at_ring(file, line, &format!("{key}: {message}"));
             let read = built(file, cut, mesh).map_err(|failure| failed(failure, &at))?;
             remarks.extend(read.remarks);
-            specimens.insert(cut.to_owned(), Arc::new(read.made));
+            specimens.insert(own, Arc::new(read.made));
         }
     }
     Ok(specimens)

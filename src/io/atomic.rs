@@ -1,10 +1,11 @@
 //! Writes files either whole or not at all.
 
+use super::overwriting::{self, Existing};
 use super::standard::is_standard;
 use crate::trace::Stopped;
 use std::collections::BTreeSet;
 use std::convert::Infallible;
-use std::fs::OpenOptions;
+use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -86,9 +87,10 @@ pub fn abandon_writes() -> Abandoned {
 /// A file that is written whole or not at all: nothing is found at its path before [`finish`](Self::finish) has returned.
 ///
 /// The content goes to a temporary file beside the path, which is renamed in the end. Missing folders are made and
-/// [reported](report_made_folders). A
-/// symbolic link stays, and the file that it leads to is written. The path `-` is standard output; standard output,
-/// pipes and devices are written to in the end.
+/// [reported](report_made_folders). A file that is replaced keeps its permissions and its owner, and one that is
+/// write-protected is refused. A symbolic link stays, and the file that it leads to is written; so do hard links, whose
+/// file is overwritten in its place in the end. The path `-` is standard output; standard output, pipes and devices are
+/// written to in the end.
 pub struct WholeFile {
     path: PathBuf,
     content: Content,
@@ -97,7 +99,7 @@ pub struct WholeFile {
 /// The store of a file's content until the file is finished.
 enum Content {
     /// A temporary file, which is renamed to the path.
-    Beside(Temporary, PathBuf),
+    Beside(Temporary, PathBuf, Existing),
     /// A file without a name, which is copied to standard output.
     Standard(BufWriter<SpooledTempFile>),
     /// A file without a name, which is copied to a pipe or a device.
@@ -119,8 +121,9 @@ impl WholeFile {
         if target.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
             return Ok(Self { path: own, content: Content::Device(store(), target) });
         }
+        let existing = Existing::at(&target).map_err(|e| WriteError::io(path, e))?;
         let temporary = Temporary::beside(path, &target)?;
-        Ok(Self { path: own, content: Content::Beside(temporary, target) })
+        Ok(Self { path: own, content: Content::Beside(temporary, target, existing) })
     }
 
     /// Moves the finished file to its path.
@@ -128,22 +131,33 @@ impl WholeFile {
     /// # Errors
     /// Fails where the file system refuses; then nothing of the file is left behind.
     pub fn finish(self) -> Result<(), WriteError> {
+        self.finish_open().map(drop)
+    }
+
+    /// Moves the finished file to its path, and returns it open at its end, for a caller that adds more; `None` for
+    /// standard output.
+    ///
+    /// # Errors
+    /// Fails where the file system refuses; then nothing of the file is left behind.
+    pub fn finish_open(self) -> Result<Option<File>, WriteError> {
         let Self { path, content } = self;
         let done = match content {
-            Content::Beside(temporary, target) => temporary.persist(&target),
+            Content::Beside(temporary, target, existing) => temporary.persist(&target, &existing).map(Some),
             Content::Standard(store) => match copied(store, || Ok(io::stdout().lock())) {
                 // The reader of the pipe has closed it.
-                Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-                done => done,
+                Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(None),
+                done => done.map(|_| None),
             },
-            Content::Device(store, target) => copied(store, || OpenOptions::new().write(true).open(&target)),
+            Content::Device(store, target) => {
+                copied(store, || OpenOptions::new().write(true).open(&target)).map(Some)
+            }
         };
         done.map_err(|e| WriteError::io(&path, e))
     }
 
     fn sink(&mut self) -> &mut dyn Sink {
         match &mut self.content {
-            Content::Beside(temporary, _) => &mut temporary.buffer,
+            Content::Beside(temporary, ..) => &mut temporary.buffer,
             Content::Standard(store) | Content::Device(store, _) => store,
         }
     }
@@ -173,16 +187,17 @@ impl Seek for WholeFile {
     }
 }
 
-/// Copies a store to the file that `open` opens.
+/// Copies a store to the file that `open` opens, and returns that file.
 fn copied<W: Write>(
     store: BufWriter<SpooledTempFile>,
     open: impl FnOnce() -> io::Result<W>,
-) -> io::Result<()> {
+) -> io::Result<W> {
     let mut store = store.into_inner()?;
     store.rewind()?;
     let mut output = open()?;
     io::copy(&mut store, &mut output)?;
-    output.flush()
+    output.flush()?;
+    Ok(output)
 }
 
 /// Writes a file whole or not at all: `fill` writes its content; see [`WholeFile`].
@@ -239,7 +254,7 @@ impl Temporary {
             report(folder);
         }
         let mut files = under_way();
-        let file = new_file(folder).map_err(|e| {
+        let file = allowed(folder).and_then(|()| new_file(folder)).map_err(|e| {
             let why = format!("no file can be made in its folder ({})", e.kind());
             WriteError::io(path, io::Error::new(e.kind(), why))
         })?;
@@ -248,16 +263,32 @@ impl Temporary {
         Ok(Self { buffer: BufWriter::with_capacity(1 << 16, file), entry })
     }
 
-    /// Renames the temporary file to `target`.
-    fn persist(self, target: &Path) -> io::Result<()> {
+    /// Renames the temporary file to `target`, or writes its content into the file there, and returns the file.
+    fn persist(self, target: &Path, existing: &Existing) -> io::Result<File> {
         let Self { buffer, entry } = self;
         let file = buffer.into_inner()?;
+        // A signal that ends the program waits for the lock, and so for a file that is overwritten in its place.
         let files = under_way();
-        let renamed = file.persist(target).map(drop).map_err(|e| e.error);
+        let written = overwriting::replace(file, target, existing);
         drop(files);
         drop(entry);
-        renamed
+        written
     }
+}
+
+/// Refuses a folder that is write-protected, also for the superuser, whom the system does not hinder.
+#[cfg(unix)]
+fn allowed(folder: &Path) -> io::Result<()> {
+    match folder.metadata()?.permissions().readonly() {
+        true => Err(io::ErrorKind::PermissionDenied.into()),
+        false => Ok(()),
+    }
+}
+
+/// Elsewhere a folder's mark says nothing of the files in it.
+#[cfg(not(unix))]
+fn allowed(_: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 fn new_file(folder: &Path) -> io::Result<NamedTempFile> {

@@ -4,11 +4,12 @@
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
 use super::text::{nearest, unreadable};
-use super::{FileError, NameOrFileError, rasterize};
+use super::{Failure, FileError, NameOrFileError, rasterize};
 use crate::optics::{encoded_from_linear, linear_from_encoded};
 use crate::picture::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern, Tone};
 use crate::scene::{Panorama, World};
+use crate::trace::Watch;
 use ::png::{BitDepth, ColorType};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -119,6 +120,18 @@ impl BackgroundRef {
         self.picture_behind(PATTERN_SIDE / 2)
     }
 
+    /// Returns the picture that hangs behind a film, as [`Self::picture_behind`] does. Between the parts of a world, `watch`
+    /// may stop the work.
+    ///
+    /// # Errors
+    /// Fails where a photograph's file is at fault, or where `watch` asks to stop.
+    pub fn picture_watched(&self, film: u32, watch: Watch) -> Result<Option<LoadedPanorama>, Failure> {
+        let Self::World(world) = self else { return Ok(self.picture_behind(film)?) };
+        let picture = world.picture_in_parts([side_behind(film); 2], PATTERN_SPAN, watch);
+        let panorama = picture.ok_or(Failure::Stopped)?;
+        Ok(Some(LoadedPanorama { panorama, warnings: vec![] }))
+    }
+
     /// Returns the picture that hangs behind a film with this many pixels along its longer side. A world is drawn as fine as
     /// the film shows it, with 256 to 4096 pixels a side; a photograph is halved until no side is longer than 4096
     /// pixels. `None` for the light and for colours.
@@ -132,9 +145,7 @@ impl BackgroundRef {
                 Ok(Some(LoadedPanorama { panorama: drawn(*pattern)?, warnings: vec![] }))
             }
             Self::World(world) => {
-                // The film shows the middle half.
-                let side = film.clamp(128, WIDEST / 2).next_power_of_two() * 2;
-                Ok(Some(LoadedPanorama { panorama: hung(*world, side), warnings: vec![] }))
+                Ok(Some(LoadedPanorama { panorama: hung(*world, side_behind(film)), warnings: vec![] }))
             }
             Self::Photo(path) => {
                 let mut reading = panorama::read_photo(path)?;
@@ -200,6 +211,11 @@ impl BackgroundRef {
 fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), FileError> {
     let raster = rasterize(&pattern.drawing().to_string(), PATTERN_SIDE);
     raster.map_err(|error| FileError::new(pattern.name(), error))
+}
+
+/// Returns the side of a world's picture behind a film, in pixels. The film shows the middle half.
+fn side_behind(film: u32) -> u32 {
+    film.clamp(128, WIDEST / 2).next_power_of_two() * 2
 }
 
 /// Draws a world as a hanging picture: its middle half is the part that a photograph 60 degrees across shows.

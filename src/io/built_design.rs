@@ -5,6 +5,7 @@ use super::design_file::{self, ImportedDesign};
 use super::library::{self, CUTS, SCENES};
 use super::mesh_options::MeshOptions;
 use super::{Failure, FileError, is_standard, nearest, scene_file};
+use crate::cut::from_mesh::FacetError;
 use crate::scene::Specimen;
 use std::ops::Deref;
 use std::path::Path;
@@ -21,6 +22,12 @@ pub struct BuiltDesign {
     pub made: Specimen,
     /// Notes and warnings, each with the path, as they are printed.
     pub remarks: Vec<String>,
+    /// How the remarks call the solids of a mesh that has several; empty for any other design.
+    pub parts: Vec<String>,
+    /// True for a mesh that other options would read in another way, as its remarks say.
+    pub has_other_reading: bool,
+    /// The standard errors of the facets of a scan; empty for other designs.
+    pub errors: Vec<FacetError>,
 }
 
 impl Deref for BuiltDesign {
@@ -68,14 +75,14 @@ impl BuiltDesign {
 
     fn of(
         path: String,
-        ImportedDesign { design, notes, warnings, .. }: ImportedDesign,
+        ImportedDesign { design, notes, warnings, parts, has_other_reading, errors, .. }: ImportedDesign,
     ) -> Result<Self, Failure> {
         let made = Specimen::new(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
         let notes = notes.iter().map(|note| format!("note: {path}: {note}"));
         let unusual = made.unusual.iter().map(ToString::to_string);
         let warnings = warnings.into_iter().chain(unusual).chain(made.warnings.iter().cloned());
         let remarks = notes.chain(warnings.map(|w| format!("warning: {path}: {w}"))).collect();
-        Ok(Self { path, made, remarks })
+        Ok(Self { path, made, remarks, parts, has_other_reading, errors })
     }
 }
 

@@ -55,8 +55,8 @@ impl SheetFormat {
 }
 
 /// Describes the sheet of a stone. A stone that is not cut by tiers gets those that the editor turns it into: pavilion,
-/// girdle, crown and table with cutters' names, and the meets that its geometry shows as instructions; see [`in_tiers`]. The
-/// instruction of a tier that has neither a meet nor an instruction is its depth.
+/// girdle, crown and table with cutters' names; see [`in_tiers`]. A tier without an instruction gets the meet that the stone
+/// shows, and where none is found, its depth.
 ///
 /// # Errors
 /// Fails with [`Failure::Input`] for a solid without facets that can be cut: a mesh that is not convex, a smooth
@@ -66,7 +66,9 @@ pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSh
     let by_tiers = in_tiers(specimen).map_err(|why| refused(why.to_string()))?;
     let stone = by_tiers.stone().map_err(|why| refused(why.to_string()))?;
     let Cut::Tiers(tiers) = &by_tiers.design.cut else { return Err(refused("it has no tiers".to_owned())) };
-    let tiers = with_depths(&by_tiers, stone, tiers);
+    let named = tiers.with_kept_stated_meets().with_names_in_meets();
+    let (met, _) = named.with_found_meets_followed();
+    let tiers = with_depths(&by_tiers, stone, &met);
     Ok(CuttingSheet::new(specimen, stone, &tiers, left_handed))
 }
 
@@ -92,7 +94,7 @@ fn with_depths(turned: &Specimen, stone: &Stone, tiers: &Tiers) -> Tiers {
         let origin = (turned.frame.place(DVec3::ZERO).z - low.z) / width;
         tiers.footers.push(format!(
             "Depth is the distance of the facet from the point of the axis that lies {origin:.4} W above the lowest point of \
-             the stone. Tiers that have one meet no earlier facets in a point that places them."
+             the stone. It stands where no meet of earlier facets was found that places the tier."
         ));
     }
     tiers
@@ -128,7 +130,7 @@ pub fn write(
     if pages.len() > 1 && super::is_standard(path) {
         let count = pages.len();
         return Err(Failure::Usage(format!(
-            "--out -: the sheet has {count} pages; write it as pdf, or to a file"
+            "the sheet has {count} pages, and standard output takes one; write it as pdf, or to a file"
         )));
     }
     let mut files = vec![];

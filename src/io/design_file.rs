@@ -6,7 +6,7 @@ use super::cutters::WarningList;
 use super::file_error::{Fault, FileError};
 use super::mesh::{self, FINENESS, MaterialHint, Stated, stated_in_stl};
 use super::mesh_options::MeshOptions;
-use super::{Failure, asc, gcs, gem, write as write_whole};
+use super::{Failure, asc, foreign, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use super::{write_glb, write_obj, write_ply, write_stl};
 use crate::cut::{Design, MaterialRef};
@@ -75,19 +75,24 @@ impl DesignFormat {
     }
 
     /// Returns the format of a file with these bytes and this name.
-    fn of(bytes: &[u8], path: &Path) -> Self {
+    ///
+    /// # Errors
+    /// Fails where the bytes are of a format that is known and not read.
+    fn of(bytes: &[u8], path: &Path) -> Result<Self, Fault> {
         let known = [
             (Self::Gcs, gcs::looks_like as fn(&[u8]) -> bool),
             (Self::Gem, gem::looks_like),
             (Self::Asc, asc::looks_like),
         ];
-        let is_mesh = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
-        if is_mesh("gltf") {
-            // The reader of glTF reports the faults of the file.
-            return Self::Glb;
+        if let Some((format, _)) = known.into_iter().find(|(_, looks_like)| looks_like(bytes)) {
+            return Ok(format);
         }
-        let found = known.into_iter().find(|(_, looks_like)| looks_like(bytes)).map(|(format, _)| format);
-        found.or_else(|| Self::of_name(path)).unwrap_or(Self::Toml)
+        if let Some(message) = foreign::refusal(bytes) {
+            return Err(message.into());
+        }
+        // The reader of glTF reports the faults of such a file.
+        let is_gltf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("gltf"));
+        Ok(if is_gltf { Self::Glb } else { Self::of_name(path).unwrap_or(Self::Toml) })
     }
 }
 
@@ -110,7 +115,7 @@ pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, Fi
     if mesh::looks_like(&bytes).is_some() {
         return mesh::read(bytes, path, options);
     }
-    let mut brought = match DesignFormat::of(&bytes, path) {
+    let mut brought = match DesignFormat::of(&bytes, path).map_err(named)? {
         DesignFormat::Asc => asc::read(&bytes, &label),
         DesignFormat::Gem => gem::read(&bytes, &label),
         DesignFormat::Gcs => gcs::read(&bytes, &label),
@@ -120,8 +125,8 @@ pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, Fi
         DesignFormat::Toml => text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(with_warnings),
     }
     .map_err(named)?;
-    if options != MeshOptions::default() {
-        brought.notes.push("--up and --as are for meshes and have no effect on this design".to_owned());
+    if options.is_given() {
+        brought.notes.push("the options of meshes have no effect on this design".to_owned());
     }
     Ok(brought)
 }

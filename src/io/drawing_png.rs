@@ -1,8 +1,10 @@
-//! Rasterises drawings: SVG text to pixels, with fonts that the program carries, so that it looks the same everywhere.
+//! Rasterises drawings: SVG text to pixels, with fonts that the program carries, so that it looks the same everywhere, and with
+//! those of the system for other letters.
 
-use super::MOST_PIXELS;
+use super::{MOST_PIXELS, letters};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{self, ImageHrefResolver, ImageKind, Options, Tree, fontdb};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 #[cfg(test)]
@@ -38,7 +40,8 @@ pub enum DrawingError {
 /// Rasterises an SVG at a width in pixels, on white. Returns the width, the height, and RGB with a byte each, rows from the
 /// top.
 ///
-/// Only the program's own fonts are used, and nothing outside the text is read. Pictures in the drawing are left out.
+/// Nothing outside the text is read, except for fonts with letters that the program's own fonts lack. Pictures in the drawing
+/// are left out.
 ///
 /// # Errors
 /// Fails where the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
@@ -87,27 +90,45 @@ fn drawn(tree: &Tree, width: u32, paper: Color) -> Result<Pixmap, DrawingError> 
     Ok(pixmap)
 }
 
+/// Parses a drawing. Letters that the program's own fonts lack come from fonts of the system.
 pub(super) fn parse(svg: &str) -> Result<Tree, DrawingError> {
-    let mut fonts = fontdb::Database::new();
-    for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
-        fonts.load_font_data(font.to_vec());
-    }
-    fonts.set_sans_serif_family(FAMILY);
+    let tree = parsed(svg, letters::own_fonts())?;
+    if letters::lacking(&tree).is_empty() { Ok(tree) } else { parsed(svg, letters::all_fonts()) }
+}
+
+fn parsed(svg: &str, fonts: Arc<fontdb::Database>) -> Result<Tree, DrawingError> {
     let within = ImageHrefResolver {
         resolve_data: Box::new(|mime, data, _| (mime == "image/png").then_some(ImageKind::PNG(data))),
         resolve_string: Box::new(|_, _| None),
     };
     let options = Options {
-        font_family: FAMILY.to_owned(),
-        fontdb: Arc::new(fonts),
+        font_family: letters::FAMILY.to_owned(),
+        fontdb: fonts,
+        font_resolver: letters::resolver(),
         image_href_resolver: within,
         ..Options::default()
     };
     usvg::Tree::from_str(svg, &options).map_err(|e| DrawingError::NotSvg { reason: e.to_string() })
 }
 
-/// The family of Ubuntu Light; the second font stands in for letters it lacks.
-const FAMILY: &str = "Ubuntu";
+/// Returns a note about letters of texts that no font of the program or of the system has, so that drawings and PDF files show
+/// boxes in their place; `None` where there are none.
+pub fn note_of_letters<'t>(texts: impl IntoIterator<Item = &'t str>) -> Option<String> {
+    let beyond: BTreeSet<char> = texts
+        .into_iter()
+        .flat_map(str::chars)
+        .filter(|letter| !letter.is_ascii() && !letter.is_control())
+        .collect();
+    if beyond.is_empty() {
+        return None;
+    }
+    let text: String = beyond.into_iter().collect();
+    let svg = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'><text>{text}</text></svg>");
+    let lacking = letters::lacking(&parse(&svg).ok()?);
+    (!lacking.is_empty()).then(|| {
+        format!("no font has the letters {lacking}, which drawings show as boxes; install a font that has them, such as Noto")
+    })
+}
 
 #[cfg(test)]
 mod tests {
@@ -239,6 +260,40 @@ mod tests {
             let drawn = picture(&letter.to_string());
             assert!(drawn != blank && drawn != unknown, "{letter}");
         }
+    }
+
+    #[test]
+    fn letters_that_no_font_has_are_named_and_others_are_not() {
+        assert_eq!(note_of_letters(["Größe 96–12", "Алмаз α", "a\u{200d}\u{fe0f}"]), None);
+        let note = note_of_letters(["a \u{10fffd}", "\u{10fffd}\u{10fff0}"]).unwrap();
+        assert!(note.contains("the letters \u{10fff0}\u{10fffd},"), "{note}");
+    }
+
+    #[test]
+    fn letters_beyond_the_programs_own_fonts_are_drawn_from_the_systems() {
+        let svg = |text: &str| {
+            format!(
+                "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 40 40'><text y='30'>{text}</text></svg>"
+            )
+        };
+        let has = |letter: char| {
+            let tree = parsed(&svg(&letter.to_string()), letters::all_fonts()).unwrap();
+            letters::lacking(&tree).is_empty()
+        };
+        let lacks = |letter: char| {
+            !letters::lacking(&parsed(&svg(&letter.to_string()), letters::own_fonts()).unwrap()).is_empty()
+        };
+        let Some(letter) = "שا石ก✈♞".chars().find(|letter| lacks(*letter) && has(*letter)) else {
+            eprintln!("skipped: the system has no fonts with letters that the program's own lack");
+            return;
+        };
+        let picture = |text: &str| rasterize(&svg(text), 40).unwrap().2;
+        let drawn = picture(&letter.to_string());
+        assert!(drawn != picture("") && drawn != picture("\u{10fffd}"), "{letter}");
+        assert_eq!(drawn, picture(&letter.to_string()));
+        // Letters of the program's own fonts stay theirs.
+        let ids = |fonts: &fontdb::Database| fonts.faces().map(|face| face.id).collect::<Vec<_>>();
+        assert!(ids(&letters::all_fonts()).starts_with(&ids(&letters::own_fonts())));
     }
 
     #[test]

@@ -4,6 +4,8 @@
 //! Angles in a file are polar: 0 the table, 90 the girdle, 180 the culet. A stone reaches 1 across and is centred in
 //! z. Statements of a file that are not about the stone are kept as remarks under the names of their attributes.
 
+use super::encoding;
+
 mod facets;
 mod guard;
 mod read;
@@ -42,6 +44,5 @@ const ROOT_WITHIN: usize = 4096;
 
 /// Returns whether a file is a design of Gem Cut Studio, by its root element.
 pub fn looks_like(bytes: &[u8]) -> bool {
-    let start = encoding_rs::UTF_8.decode(&bytes[..bytes.len().min(ROOT_WITHIN)]).0;
-    start.contains("<GemCutStudio")
+    encoding::decoded(&bytes[..bytes.len().min(ROOT_WITHIN)], None).text.contains("<GemCutStudio")
 }

@@ -15,8 +15,12 @@ mod cutters;
 #[cfg(feature = "interchange")]
 pub mod cutting_sheet;
 #[cfg(feature = "interchange")]
+mod decoding;
+#[cfg(feature = "interchange")]
 pub mod design_file;
 mod drawing_png;
+#[cfg(feature = "interchange")]
+mod encoding;
 #[cfg(feature = "exr")]
 pub mod export;
 #[cfg(feature = "exr")]
@@ -24,16 +28,22 @@ mod exr;
 mod failure;
 mod file_error;
 #[cfg(feature = "interchange")]
+mod foreign;
+#[cfg(feature = "interchange")]
 pub mod gcs;
 #[cfg(feature = "interchange")]
 pub mod gem;
 pub mod goal_file;
+mod letters;
 pub mod library;
 pub mod light_file;
 pub mod lighting;
 #[cfg(feature = "interchange")]
 pub mod mesh;
 pub mod mesh_options;
+#[cfg(feature = "interchange")]
+mod numbers;
+mod overwriting;
 pub mod panorama;
 #[cfg(feature = "interchange")]
 mod pdf;
@@ -51,6 +61,7 @@ pub mod scope_file;
 mod standard;
 mod stored_light;
 mod text;
+mod toml_comments;
 mod toml_format;
 mod toml_text;
 
@@ -60,11 +71,12 @@ pub use atomic::{
 };
 #[cfg(feature = "interchange")]
 pub use cutters::{NoTiers, as_tiers, in_tiers};
-pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};
+pub use drawing_png::{DrawingError, note_of_letters, rasterize, rasterize_clear, rasterize_within};
 #[cfg(feature = "exr")]
 pub use exr::write_exr;
 pub use failure::Failure;
 pub use file_error::{Fault, FileError, NameOrFileError};
+pub use letters::SystemFont;
 #[cfg(feature = "interchange")]
 pub use mesh::{write_glb, write_obj, write_ply, write_stl};
 #[cfg(feature = "interchange")]
@@ -76,3 +88,4 @@ pub use png::{MOST_PIXELS, PngFile, write_png};
 pub use standard::{STANDARD, is_standard};
 pub use stored_light::StoredLight;
 pub(crate) use text::nearest;
+pub use toml_comments::has_comments;

@@ -4,6 +4,9 @@
 
 #[cfg(feature = "exr")]
 mod exr;
+#[cfg(feature = "exr")]
+mod exr_layer;
+mod radiance;
 mod raster;
 
 use super::file_error::{Fault, FileError};
@@ -21,6 +24,15 @@ const PIXELS_A_BYTE: u64 = 1100;
 
 /// The number of pixels, 48 MiB of light, that any header may promise, however small the file.
 const FREE_PIXELS: u64 = 1 << 22;
+
+/// The largest number of 16 bits, the brightest that most OpenEXR files can hold.
+const LARGEST_HALF: f32 = 65_504.0;
+
+/// The primaries and the white of sRGB, as CIE x and y (ITU-R BT.709-6, §1).
+const SRGB_PLACES: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
+
+/// Primaries whose coordinates differ by less than this count as the same.
+const SAME_PLACE: f32 = 0.002;
 
 /// The first bytes of an OpenEXR file.
 const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
@@ -78,7 +90,12 @@ pub fn read(path: &Path) -> Result<LoadedPanorama, FileError> {
 pub fn read_photo(path: &Path) -> Result<LoadedPanorama, FileError> {
     let label = path.display();
     let (mut panorama, mut warnings) = raw(path).map_err(|fault| fault.in_file(&label))?;
-    let bad = mend(&mut panorama.pixels);
+    let Mended { infinite, bad, largest } = mend(&mut panorama.pixels);
+    if infinite > 0 {
+        warnings.push(format!(
+            "{infinite} pixels are too bright for the numbers of the file and hold infinite light; they are read as {largest}"
+        ));
+    }
     if bad > 0 {
         warnings.push(format!("{bad} pixels held negative light or no number, and are read as dark"));
     }
@@ -102,7 +119,9 @@ fn raw(path: &Path) -> Result<Raw, Fault> {
             Err("this build reads no OpenEXR: build it with the feature `exr`, or save the picture as PNG"
                 .into())
         }
-        other => raster::read(file, about.len(), other),
+        // Programs write `#?RADIANCE` or `#?RGBE`; their pixels are the same.
+        start if start.starts_with(b"#?") => radiance::read(file, about.len()),
+        _ => raster::read(file, about.len()),
     }
 }
 
@@ -134,18 +153,37 @@ fn damaged(error: impl std::fmt::Display) -> Fault {
     ))
 }
 
-/// Replaces values that are not finite or are below 0 by darkness; returns the number of pixels that held such
-/// values.
-fn mend(pixels: &mut [[f32; 3]]) -> usize {
-    let mut count = 0;
+/// The values of pixels that were replaced.
+struct Mended {
+    /// The number of pixels with infinite light, and the light that they have now.
+    infinite: usize,
+    largest: f32,
+    /// The number of pixels with light below 0 or that is no number.
+    bad: usize,
+}
+
+/// Replaces light without end, as of a sun that overflowed the numbers of its file, by the largest of a number of 16 bits or
+/// of the picture; and light below 0 or that is no number by darkness.
+fn mend(pixels: &mut [[f32; 3]]) -> Mended {
+    let finite = pixels.as_flattened().iter().copied().filter(|light| light.is_finite());
+    let mut mended = Mended { infinite: 0, largest: finite.fold(LARGEST_HALF, f32::max), bad: 0 };
     for pixel in pixels {
-        let bad = pixel.iter().any(|c| !c.is_finite() || *c < 0.0);
-        if bad {
-            count += 1;
-            *pixel = pixel.map(|c| if c.is_finite() { c.max(0.0) } else { 0.0 });
-        }
+        let is_infinite = |light: &f32| *light == f32::INFINITY;
+        mended.infinite += usize::from(pixel.iter().any(is_infinite));
+        mended.bad += usize::from(pixel.iter().any(|light| light.is_nan() || *light < 0.0));
+        // NaN becomes 0.
+        *pixel = pixel.map(|light| if is_infinite(&light) { mended.largest } else { light.max(0.0) });
     }
-    count
+    mended
+}
+
+/// Returns a warning where primaries and white, as CIE x and y of red, green, blue and white, are not those of sRGB.
+fn warn_of_primaries(given: [[f32; 2]; 4]) -> Option<String> {
+    let pairs = given.as_flattened().iter().zip(SRGB_PLACES.as_flattened());
+    let is_srgb = pairs.into_iter().all(|(a, b)| (a - b).abs() < SAME_PLACE);
+    (!is_srgb).then(|| {
+        "its primaries are not those of sRGB, but are read as such, so colours will be wrong".to_owned()
+    })
 }
 
 #[cfg(test)]

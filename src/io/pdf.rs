@@ -1,5 +1,6 @@
 //! Writes drawings as PDF: lines and faces as paths, and text as text, which can be searched and copied. The fonts
-//! are the program's own; the file holds only the letters of each font that are used.
+//! are the program's own, and the system's for letters that those lack; the file holds only the letters of each font that are
+//! used.
 //!
 //! Source: ISO 32000-1, PDF 1.7; sections are named where they are used.
 

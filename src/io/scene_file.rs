@@ -4,6 +4,7 @@
 
 use super::background::BackgroundRef;
 use super::file_error::{Fault, FileError};
+use super::mesh_options::MeshPart;
 use super::text;
 use super::toml_format::check_format;
 use super::toml_text::TomlText;
@@ -96,6 +97,8 @@ pub struct MetalEntry {
 pub struct Entry {
     /// A cut that comes with the program, or the path of a cut file from the scene's folder.
     pub cut: String,
+    /// The body that is taken of a mesh that has several.
+    pub part: MeshPart,
     /// The material, checked; `None` for the cut file's.
     pub material: Option<MaterialRef>,
     /// The size; `None` for the cut file's.
@@ -143,7 +146,8 @@ impl Entry {
     pub fn placed(cut: &str, turned: DQuat, at_mm: DVec3) -> Self {
         let Angles { turn, tilt, azimuth } = Angles::of(turned);
         let cut = cut.to_owned();
-        Self { cut, material: None, size: None, count: 1, turn, tilt, azimuth, at_mm, line: 0 }
+        let part = MeshPart::Found;
+        Self { cut, part, material: None, size: None, count: 1, turn, tilt, azimuth, at_mm, line: 0 }
     }
 
     /// Returns the rotation from the cut's frame to the world's: first about the stone's axis, by `more` degrees beyond its

@@ -60,6 +60,9 @@ pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, Fault> {
         if let Some((_, kind)) = kinds.iter().find(|(start, _)| error.as_bytes().starts_with(start)) {
             return format!("this is a {kind}, where text is expected").into();
         }
+        if error.as_bytes().starts_with(b"\xff\xfe") || error.as_bytes().starts_with(b"\xfe\xff") {
+            return "this is UTF-16 text; save the file as UTF-8".into();
+        }
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         Fault::line(line_after(valid), "this is not UTF-8 text; save the file as UTF-8")
     })

@@ -2,20 +2,36 @@
 
 use super::{polygon, span};
 use glam::DVec2;
+use std::cmp::Ordering;
 
 /// Widths or lengths count as equal if their ratio differs from 1 by less than this: a hundred roundings of f32.
 const EQUAL: f64 = 1e-5;
 
+/// Directions are almost equally narrow if their widths differ by less than this part. The noise of a scan makes one
+/// of them the narrowest, and that must not decide how long a stone is.
+const ALMOST: f64 = 5e-3;
+
 /// An outline has no mirror line if its mirror image reaches beyond it by more than this many widths. Designs are
-/// rounded more finely.
-const MIRRORED: f64 = 1e-3;
+/// rounded more finely, and noise of 0.3 % of the radius moves corners by less.
+const MIRRORED: f64 = 1e-2;
+
+/// An outline with a mirror line may have others that noise has spoilt, which its mirror image reaches beyond by no more
+/// than this many widths.
+const ALMOST_MIRRORED: f64 = 3e-2;
+
+/// Of two mirror lines, the one that gives the greater width counts if it is the truer one by this part of the
+/// difference of the widths.
+const TRUER: f64 = 0.5;
 
 /// Two principal moments of an outline set a direction if they differ by at least this part of their sum. It is the
 /// difference of an ellipse whose length is 1.01 widths.
 const LONG: f64 = 0.01;
 
-/// A side shorter than this many widths may result from rounding.
-const LEAST_SIDE: f64 = 0.01;
+/// A side shorter than this many widths may be a corner that was cut off, or that noise has split.
+const LEAST_SIDE: f64 = 0.05;
+
+/// A side leans from a rectangle by no more than this many widths: the noise of a scan.
+const LEANS: f64 = 5e-3;
 
 /// Returns the convex hull of points, counter-clockwise (Andrew's monotone chain).
 pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
@@ -42,7 +58,7 @@ pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 /// The width and the length of a convex outline, which do not depend on the rotation of the outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calipers {
-    /// The least distance between two parallel lines that hold the outline.
+    /// The distance between two parallel lines that hold the outline: the least, except in [`Calipers::of_stone`].
     pub width: f64,
     /// The distance between the two lines that hold the outline and are perpendicular to the lines of the width.
     /// Where several directions are equally narrow, it is the greatest of their lengths.
@@ -61,66 +77,96 @@ pub struct Calipers {
 impl Calipers {
     /// Measures a convex outline with counter-clockwise corners, as [`hull`] returns it; `None` where it has no area.
     pub fn of(outline: &[DVec2]) -> Option<Self> {
-        let edges = outline.iter().zip(outline.iter().cycle().skip(1));
-        let across = edges.filter_map(|(&a, &b)| Some(rightward((b - a).perp().try_normalize()?)));
-        let all: Vec<(f64, f64, DVec2)> = across
-            .map(|across| (length(extent(outline, across)), length(extent(outline, across.perp())), across))
-            .collect();
-        let width = all.iter().map(|(width, ..)| *width).fold(f64::INFINITY, f64::min);
+        let all = Self::square_to_sides(outline);
+        let width = all.iter().map(|found| found.width).fold(f64::INFINITY, f64::min);
         if !(width > 0.0 && width.is_finite()) {
             return None;
         }
-        let narrow = || all.iter().filter(|(w, ..)| *w <= width * (1.0 + EQUAL));
-        let length = narrow().map(|(_, length, _)| *length).fold(0.0, f64::max);
-        let long = narrow().filter(|(_, l, _)| *l >= length * (1.0 - EQUAL));
-        // Equal directions are sorted by their coordinates, so that the result does not depend on the order of the
-        // corners.
-        let across =
-            long.map(|(.., across)| *across).max_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))?;
-        Some(Self { width, length, across, middle: polygon::centroid(outline) })
+        let narrow = || all.iter().filter(|found| found.width <= width * (1.0 + EQUAL));
+        let length = narrow().map(|found| found.length).fold(0.0, f64::max);
+        let long = narrow().filter(|found| found.length >= length * (1.0 - EQUAL));
+        Some(Self { width, length, ..*long.max_by(Self::nearer_to_x)? })
     }
 
-    /// Measures a convex outline as people measure a stone: along its mirror line and perpendicular to it.
+    /// Measures a convex outline as people measure a stone: along its mirror line and perpendicular to it, or else in
+    /// its narrowest direction.
     ///
-    /// The result is that of [`Calipers::of`] unless the outline is mirror symmetric and its narrowest direction is
-    /// oblique to the mirror line. An example is a kite, which is narrowest perpendicular to a side. `width` is then
-    /// the smaller of the two extents. An outline that has a side on each side of its narrowest rectangle keeps that
-    /// rectangle; an example is a square without one corner. The mirror line is one of the principal axes of the
-    /// area, where these have definite directions.
-    pub fn along_mirror(outline: &[DVec2]) -> Option<Self> {
-        let least = Self::of(outline)?;
+    /// The outline is measured along its mirror line if it is mirror symmetric to within 1 % of its width, even where its
+    /// narrowest direction is oblique to the mirror line. An example is a kite, which is narrowest perpendicular to a
+    /// side. `width` is then the smaller of the two extents. An outline that has a side on each side of its narrowest
+    /// rectangle keeps that rectangle; an example is a square without one corner. The mirror line is one of the principal
+    /// axes of the area, where these have definite directions.
+    ///
+    /// Without a mirror line, of directions that are almost equally narrow, to within 0.5 %, the one that is long as well
+    /// is taken: that of the least square of the width divided by the length. So noise of 0.3 % changes width and length
+    /// by little more.
+    pub fn of_stone(outline: &[DVec2]) -> Option<Self> {
+        let least = Self::narrow_and_long(outline)?;
         if fills_its_sides(outline, &least) {
             return Some(least);
         }
         Some(Self::in_mirror(outline, least.middle, least.width).unwrap_or(least))
     }
 
-    /// Measures an outline along its mirror line and perpendicular to it; `None` where it has no mirror line, or
-    /// where its width so measured does not exceed `least`.
+    /// Measures an outline perpendicular to each of its sides.
+    fn square_to_sides(outline: &[DVec2]) -> Vec<Self> {
+        let middle = polygon::centroid(outline);
+        let sides = outline.iter().zip(outline.iter().cycle().skip(1));
+        let across = sides.filter_map(|(&a, &b)| Some(rightward((b - a).perp().try_normalize()?)));
+        let measured = |across: DVec2| Self {
+            width: length(extent(outline, across)),
+            length: length(extent(outline, across.perp())),
+            across,
+            middle,
+        };
+        across.map(measured).collect()
+    }
+
+    /// Sorts equal directions by their coordinates, so that a choice among them does not depend on the order of the
+    /// corners.
+    fn nearer_to_x(&&a: &&Self, &&b: &&Self) -> Ordering {
+        a.across.x.total_cmp(&b.across.x).then(a.across.y.total_cmp(&b.across.y))
+    }
+
+    /// Measures an outline in that of its almost narrowest directions that is long as well.
+    fn narrow_and_long(outline: &[DVec2]) -> Option<Self> {
+        let width = Self::of(outline)?.width;
+        let mut narrow = Self::square_to_sides(outline);
+        narrow.retain(|found| found.width <= width * (1.0 + ALMOST));
+        let cost = |found: &Self| found.width.powi(2) / found.length;
+        let least = narrow.iter().map(cost).fold(f64::INFINITY, f64::min);
+        let equal = || narrow.iter().filter(|found| cost(found) <= least * (1.0 + EQUAL));
+        let width = equal().map(|found| found.width).fold(f64::INFINITY, f64::min);
+        let length = equal().map(|found| found.length).fold(0.0, f64::max);
+        Some(Self { width, length, ..*equal().max_by(Self::nearer_to_x)? })
+    }
+
+    /// Measures an outline of the least width `least` along its mirror line and perpendicular to it; `None` where it has
+    /// no mirror line.
     fn in_mirror(outline: &[DVec2], middle: DVec2, least: f64) -> Option<Self> {
         let axes = match principal_axis(outline, middle) {
             Some(axis) => vec![axis],
             None => sides_and_corners(outline, middle),
         };
-        let unlike = |normal: DVec2| beyond_mirrored(outline, middle, normal, MIRRORED * least);
-        let mirrors: Vec<(DVec2, f64)> = axes
-            .into_iter()
-            .filter_map(|axis| {
-                Some((axis, unlike(axis).into_iter().chain(unlike(axis.perp())).reduce(f64::min)?))
-            })
-            .collect();
-        // An outline with almost more rotations has lines that are almost mirror lines, besides its own.
-        let best = mirrors.iter().map(|(_, unlike)| *unlike).fold(f64::INFINITY, f64::min);
-        let mirrors = mirrors.into_iter().filter(|(_, unlike)| *unlike <= best.max(EQUAL * least));
-        let measured = mirrors.map(|(axis, _)| {
+        let support = Support::of(outline, middle);
+        let unlike = |axis: DVec2| support.unlike(axis).min(support.unlike(axis.perp()));
+        let mut mirrors: Vec<(DVec2, f64)> = axes.into_iter().map(|axis| (axis, unlike(axis))).collect();
+        if !mirrors.iter().any(|(_, unlike)| *unlike <= MIRRORED * least) {
+            return None;
+        }
+        mirrors.retain(|(_, unlike)| *unlike <= ALMOST_MIRRORED * least);
+        let measured = mirrors.into_iter().map(|(axis, unlike)| {
             let [one, other] =
                 [axis, axis.perp()].map(|along| (length(extent(outline, along)), rightward(along)));
             let (narrow, wide) = if one.0 <= other.0 { (one, other) } else { (other, one) };
-            Self { width: narrow.0, length: wide.0, across: narrow.1, middle }
+            (Self { width: narrow.0, length: wide.0, across: narrow.1, middle }, unlike)
         });
-        // Of several mirror lines, such as those of a triangle, the one that gives the least width counts.
-        let found = measured.min_by(|a, b| a.width.total_cmp(&b.width))?;
-        (found.width > least * (1.0 + EQUAL)).then_some(found)
+        // Of several mirror lines, such as those of a triangle or a square, the one that gives the least width counts.
+        let measured: Vec<(Self, f64)> =
+            measured.map(|(found, unlike)| (found, TRUER * found.width + unlike)).collect();
+        let lowest = measured.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
+        let equal = measured.iter().filter(|(_, cost)| *cost <= lowest + EQUAL * least);
+        equal.map(|(found, _)| found).max_by(Self::nearer_to_x).copied()
     }
 }
 
@@ -128,7 +174,7 @@ impl Calipers {
 fn fills_its_sides(outline: &[DVec2], &Calipers { across, width, .. }: &Calipers) -> bool {
     [across, -across, across.perp(), -across.perp()].iter().all(|out| {
         let (_, most) = extent(outline, *out);
-        let on_it = outline.iter().filter(|p| p.dot(*out) >= most - EQUAL * width);
+        let on_it = outline.iter().filter(|p| p.dot(*out) >= most - LEANS * width);
         length(span(on_it.map(|p| p.dot(out.perp())))) > LEAST_SIDE * width
     })
 }
@@ -164,20 +210,42 @@ fn sides_and_corners(outline: &[DVec2], middle: DVec2) -> Vec<DVec2> {
     marks.into_iter().filter_map(DVec2::try_normalize).collect()
 }
 
-/// Returns the distance by which the mirror image of a convex outline, in a line through its middle with this normal,
-/// reaches beyond the outline; `None` where it is more than `most`.
-fn beyond_mirrored(outline: &[DVec2], middle: DVec2, normal: DVec2, most: f64) -> Option<f64> {
-    let image = |p: &DVec2| *p - 2.0 * (*p - middle).dot(normal) * normal;
-    // The corners are in counter-clockwise order, so the outside is to the right of each side.
-    let beyond = |p: DVec2| {
-        let sides = outline.iter().zip(outline.iter().cycle().skip(1));
-        let outside = sides.filter_map(|(&a, &b)| Some((p - a).perp_dot((b - a).try_normalize()?)));
-        outside.fold(0.0, f64::max)
-    };
-    outline
-        .iter()
-        .map(|p| beyond(image(p)))
-        .try_fold(0.0_f64, |worst, by| (by <= most).then(|| worst.max(by)))
+/// The lines that hold a convex outline, by their directions, seen from its middle.
+struct Support {
+    /// The sides by azimuth: the azimuth of the normal, the normal, and the corner at the side's end.
+    sides: Vec<(f64, DVec2, DVec2)>,
+}
+
+impl Support {
+    /// Lists the sides of an outline with counter-clockwise corners.
+    fn of(outline: &[DVec2], middle: DVec2) -> Self {
+        let ends = outline.iter().zip(outline.iter().cycle().skip(1));
+        let side = |(&a, &b): (&DVec2, &DVec2)| {
+            let normal = -(b - a).perp().try_normalize()?;
+            Some((normal.to_angle(), normal, b - middle))
+        };
+        let mut sides: Vec<_> = ends.filter_map(side).collect();
+        sides.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self { sides }
+    }
+
+    /// Returns the distance from the middle to the line that holds the outline in a direction; 0 without sides.
+    fn at(&self, direction: DVec2) -> f64 {
+        let azimuth = direction.to_angle();
+        let place = self.sides.partition_point(|(side, ..)| *side <= azimuth);
+        // Before the first side lies the end of the last.
+        let side = place.checked_sub(1).map_or(self.sides.last(), |before| self.sides.get(before));
+        side.map_or(0.0, |(.., corner)| corner.dot(direction))
+    }
+
+    /// Returns the distance by which the mirror image of the outline, in the line through its middle with this normal,
+    /// reaches beyond the outline.
+    fn unlike(&self, normal: DVec2) -> f64 {
+        let beyond = |(_, side, corner): &(f64, DVec2, DVec2)| {
+            self.at(*side - 2.0 * side.dot(normal) * normal) - side.dot(*corner)
+        };
+        self.sides.iter().map(beyond).fold(0.0, f64::max)
+    }
 }
 
 /// Returns a direction or its opposite, whichever has x > 0, or x = 0 and y > 0.
@@ -253,8 +321,7 @@ mod tests {
             for step in 0..50 {
                 let angle = 0.37 * f64::from(step);
                 let outline = turned(&shape, angle);
-                let (least, found) =
-                    (Calipers::of(&outline).unwrap(), Calipers::along_mirror(&outline).unwrap());
+                let (least, found) = (Calipers::of(&outline).unwrap(), Calipers::of_stone(&outline).unwrap());
                 assert!((found.width - width).abs().max((found.length - length).abs()) < 1e-12, "{found:?}");
                 let along =
                     [0.0, FRAC_PI_2].map(|by| found.across.perp_dot(DVec2::from_angle(angle + by)).abs());
@@ -264,7 +331,7 @@ mod tests {
                 let mut uneven = shape;
                 uneven[0][1] += 0.15;
                 let uneven = turned(&uneven, angle);
-                assert_eq!(Calipers::along_mirror(&uneven), Calipers::of(&uneven));
+                assert_eq!(Calipers::of_stone(&uneven), Calipers::of(&uneven));
             }
         }
     }
@@ -290,7 +357,49 @@ mod tests {
         for (index, shape) in shapes.iter().enumerate() {
             for step in 0..20 {
                 let outline = turned(shape, 0.37 * f64::from(step));
-                assert_eq!(Calipers::along_mirror(&outline), Calipers::of(&outline), "shape {index}");
+                let [a, b] = [Calipers::of_stone(&outline), Calipers::of(&outline)].map(Option::unwrap);
+                let off = (a.width - b.width).abs().max((a.length - b.length).abs());
+                assert!(off < 1e-12, "shape {index}: {a:?} {b:?}");
+            }
+        }
+    }
+
+    /// Noise of 0.2 % on every corner chooses another direction each time, which must not show in the width or the length.
+    #[test]
+    fn noise_changes_width_and_length_by_little_more_than_itself() {
+        let ring = |n: i32, first: f64, long: f64| -> Vec<[f64; 2]> {
+            let corner = |k: i32| DVec2::from_angle(first + TAU * f64::from(k) / f64::from(n));
+            (0..n).map(|k| (corner(k) * DVec2::new(1.0, long)).to_array()).collect()
+        };
+        let cut_off = |reach: f64| -> Vec<[f64; 2]> {
+            let corner = [[1.0, reach], [reach, 1.0], [-reach, 1.0], [-1.0, reach]];
+            corner.into_iter().chain(corner.map(|[x, y]| [-x, -y])).collect()
+        };
+        let shapes = [
+            ring(4, 0.5, 1.0),
+            ring(4, 0.0, 1.3),
+            ring(3, 0.2, 1.0),
+            ring(5, 0.0, 1.0),
+            ring(6, 0.0, 1.0),
+            ring(8, 0.1, 1.0),
+            ring(32, 0.0, 1.4),
+            ring(96, 0.0, 1.0),
+            cut_off(0.99),
+            cut_off(0.7),
+            vec![[1.0, 0.5], [0.0, 1.5], [-1.0, 0.5], [0.0, -1.5]],
+            vec![[1.0, 0.4], [0.0, 0.97], [-1.0, 0.4], [0.0, -0.97]],
+            vec![[1.0, 1.5], [-1.0, 1.5], [-0.5, -1.5], [0.5, -1.5]],
+            vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 2.0]],
+        ];
+        let mut next = crate::math::mending::tests::noise(7);
+        for (index, shape) in shapes.iter().enumerate() {
+            let plain = Calipers::of_stone(&turned(shape, 0.0)).unwrap();
+            for step in 0..40 {
+                let shaken: Vec<[f64; 2]> =
+                    shape.iter().map(|[x, y]| [x + 2e-3 * next(), y + 2e-3 * next()]).collect();
+                let found = Calipers::of_stone(&turned(&shaken, 0.37 * f64::from(step))).unwrap();
+                let off = (found.width - plain.width).abs().max((found.length - plain.length).abs());
+                assert!(off < 1e-2, "shape {index}: {found:?} {plain:?}");
             }
         }
     }

@@ -1,10 +1,26 @@
-//! Numbers as texts.
+//! Numbers as texts. Every number that people read is written by one of these functions, so that none prints as -0.
 
 /// Formats a number with so many decimals, without zeros at its end and without the sign of a number that is rounded to 0.
 pub fn rounded(number: f64, decimals: usize) -> String {
-    let text = format!("{number:.decimals$}");
+    let text = fixed(number, decimals);
     let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    text.to_owned()
+}
+
+/// Formats a number with this many decimals, without the sign of a number that is rounded to 0.
+pub fn fixed(number: f64, decimals: usize) -> String {
+    without_sign_of_zero(format!("{number:.decimals$}"))
+}
+
+/// Formats a difference with this many decimals and its sign; one that is rounded to 0 has none.
+pub fn signed(difference: f64, decimals: usize) -> String {
+    without_sign_of_zero(format!("{difference:+.decimals$}"))
+}
+
+/// Returns the text of a number without its sign where all its digits are 0.
+fn without_sign_of_zero(text: String) -> String {
+    let is_zero = text.bytes().all(|byte| matches!(byte, b'+' | b'-' | b'0' | b'.'));
+    if is_zero { text.trim_start_matches(['+', '-']).to_owned() } else { text }
 }
 
 #[cfg(test)]
@@ -18,5 +34,19 @@ mod tests {
             texts.map(|(number, decimals)| rounded(number, decimals)),
             ["15.6", "80", "0", "100", "0.0001"]
         );
+    }
+
+    #[test]
+    fn a_number_that_is_rounded_to_zero_has_no_sign() {
+        let numbers = [-1e-9, -0.0, 0.0, 4e-5, -0.0001, 2.0, f64::INFINITY];
+        assert_eq!(
+            numbers.map(|number| fixed(number, 4)),
+            ["0.0000", "0.0000", "0.0000", "0.0000", "-0.0001", "2.0000", "inf"]
+        );
+        assert_eq!(
+            numbers.map(|number| signed(number, 4)),
+            ["0.0000", "0.0000", "0.0000", "0.0000", "-0.0001", "+2.0000", "+inf"]
+        );
+        assert_eq!([fixed(-0.4, 0), signed(-0.4, 0), rounded(-0.4, 0)], ["0", "0", "0"]);
     }
 }

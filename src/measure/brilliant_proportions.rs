@@ -4,7 +4,6 @@ use super::facet_deviations::{FacetClasses, LeaningFacet, NotEightfold, OCTANTS,
 use crate::cut::{BrilliantProportions, Outline};
 use crate::math::Facet;
 use crate::scene::Stone;
-use glam::DVec2;
 use std::f64::consts::FRAC_PI_8;
 
 /// Measures the proportions of a round brilliant of eight mains, as docs/optics.md defines them. Each is the mean over its facets,
@@ -14,18 +13,17 @@ use std::f64::consts::FRAC_PI_8;
 /// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
 pub fn brilliant_proportions(stone: &Stone) -> Result<BrilliantProportions, NotEightfold> {
     facet_deviations(stone)?;
-    let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;
+    let FacetClasses { table, crown, pavilion } = FacetClasses::of(stone)?;
     let (star, bezel) = (&crown[..OCTANTS], &crown[OCTANTS..2 * OCTANTS]);
     let (main, lower) = pavilion.split_at(OCTANTS);
     let outline = Outline::of(&stone.polytope);
     let radius = 0.5 * outline.diameter;
-    let on = FacetsOnStone { stone, outline, radius };
-    let table = on.table_radius() / radius;
+    let on = FacetsOnStone { stone, outline };
+    let table = on.table_radius(&table) / radius;
     let tip = on.mean(star, |facet| on.radii(facet).fold(0.0, f64::max)) / radius;
     let inner = on.mean(lower, |facet| on.radii(facet).fold(f64::INFINITY, f64::min)) / radius;
     let slope =
         |class: &[LeaningFacet]| class.iter().map(|facet| facet.slope_deg).sum::<f64>() / class.len() as f64;
-    let [upper_edge, lower_edge] = [bezel, main].map(|class| on.mean(class, |facet| on.height_at_rim(facet)));
     let percent = |length: f64| 50.0 * length / radius;
     let edge = table * FRAC_PI_8.cos();
     Ok(BrilliantProportions {
@@ -34,8 +32,8 @@ pub fn brilliant_proportions(stone: &Stone) -> Result<BrilliantProportions, NotE
         pavilion_angle: slope(main),
         star_length: 100.0 * (tip - edge) / (1.0 - edge),
         lower_half_length: 100.0 * (1.0 - inner),
-        girdle_thickness: percent(upper_edge - lower_edge),
-        crown_height: percent(on.outline.top - upper_edge),
+        girdle_thickness: percent(on.outline.girdle_thickness()),
+        crown_height: percent(on.outline.crown_height()),
     })
 }
 
@@ -43,8 +41,6 @@ pub fn brilliant_proportions(stone: &Stone) -> Result<BrilliantProportions, NotE
 struct FacetsOnStone<'a> {
     stone: &'a Stone,
     outline: Outline,
-    /// Half the diameter.
-    radius: f64,
 }
 
 impl FacetsOnStone<'_> {
@@ -60,19 +56,13 @@ impl FacetsOnStone<'_> {
         self.stone.polytope.corners(facet).map(move |corner| corner.truncate().distance(middle))
     }
 
-    /// Returns the mean distance of the table's corners from the middle.
-    fn table_radius(&self) -> f64 {
-        let facets = self.stone.polytope.facets().iter();
-        let table = facets.max_by(|a, b| a.plane.normal.z.total_cmp(&b.plane.normal.z));
-        let radii: Vec<f64> = table.into_iter().flat_map(|facet| self.radii(facet)).collect();
+    /// Returns the mean distance of the table's corners from the middle. Of several facets, the largest is the table.
+    fn table_radius(&self, table: &[usize]) -> f64 {
+        let (polytope, facets) = (&self.stone.polytope, self.stone.polytope.facets());
+        let all = table.iter().map(|number| &facets[*number]);
+        let largest = all.max_by(|a, b| polytope.facet_area(a).total_cmp(&polytope.facet_area(b)));
+        let radii: Vec<f64> = largest.into_iter().flat_map(|facet| self.radii(facet)).collect();
         radii.iter().sum::<f64>() / radii.len().max(1) as f64
-    }
-
-    /// Returns the height at which a facet's plane meets the circle of the outline, at the facet's azimuth.
-    fn height_at_rim(&self, facet: &Facet) -> f64 {
-        let normal = facet.plane.normal;
-        let rim: DVec2 = self.outline.middle + self.radius * normal.truncate().normalize_or(DVec2::X);
-        (facet.plane.offset - normal.truncate().dot(rim)) / normal.z
     }
 }
 
@@ -81,6 +71,7 @@ mod tests {
     use super::*;
     use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use crate::math::Plane;
+    use glam::DVec2;
 
     fn fields(of: &BrilliantProportions) -> [f64; 7] {
         let BrilliantProportions { table, crown_angle, pavilion_angle, star_length, .. } = *of;

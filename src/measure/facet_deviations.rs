@@ -3,16 +3,18 @@
 //! The classes are found from the geometry alone, so that a scan without names is measured like a design. The definitions are in
 //! docs/optics.md, "Facet deviations".
 
-use crate::math::{Plane, span};
+use crate::cut::{FacetZones, TierZone};
+use crate::math::{Facet, Plane, span};
 use crate::scene::Stone;
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// A facet whose slope is less than this, degrees, is the table or the culet. The slope of stars begins at about 15°.
-const LEVEL_DEG: f64 = 5.0;
+/// The slope in degrees below which the flattest facet of a measured stone may be the table or the culet, though it leans by
+/// more than the other facets do.
+const LEANING_TABLE_DEG: f64 = 5.0;
 
-/// A facet whose normal leans less than this from the girdle plane (sine of 6°) is part of the girdle, as in facets that are
-/// found on a mesh.
+/// A facet of a measured stone whose normal leans less than this from the girdle plane (sine of 6°) is part of the girdle, as
+/// in facets that are found on a mesh.
 const UPRIGHT: f64 = 0.104_528_463;
 
 /// The number of octants.
@@ -76,7 +78,7 @@ pub enum NotEightfold {
 /// # Errors
 /// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
 pub fn facet_deviations(stone: &Stone) -> Result<Vec<ClassDeviations>, NotEightfold> {
-    let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;
+    let FacetClasses { crown, pavilion, .. } = FacetClasses::of(stone)?;
     let (star, rest) = crown.split_at(OCTANTS);
     let (bezel, upper) = rest.split_at(OCTANTS);
     let (main, lower) = pavilion.split_at(OCTANTS);
@@ -97,6 +99,8 @@ pub(super) struct Mains {
     /// The azimuth of the middle of the first octant, radians, from -π/8 to π/8. Each main's azimuth, less its octant's number
     /// times 45°, deviates from it; their median does not.
     pub azimuth: f64,
+    /// The numbers of the facets that are the table.
+    pub table: Vec<usize>,
 }
 
 impl Mains {
@@ -105,7 +109,7 @@ impl Mains {
     /// # Errors
     /// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
     pub fn of(stone: &Stone) -> Result<Self, NotEightfold> {
-        let pavilion = FacetClasses::of(stone)?.pavilion;
+        let FacetClasses { table, pavilion, .. } = FacetClasses::of(stone)?;
         let mains = &pavilion[..OCTANTS];
         let phase = phase(mains);
         let mut names: [String; OCTANTS] = Default::default();
@@ -116,12 +120,14 @@ impl Mains {
             names[octant].clone_from(&main.name);
         }
         let within = placed(mains, phase).into_iter().map(|(_, within)| within).collect();
-        Ok(Self { names, azimuth: phase + median(within) })
+        Ok(Self { names, azimuth: phase + median(within), table })
     }
 }
 
 /// The facets between table and girdle and between girdle and culet, the flattest first.
 pub(super) struct FacetClasses {
+    /// The numbers of the level facets on top, which are the table.
+    pub table: Vec<usize>,
     /// The stars, the bezels and the upper halves.
     pub crown: Vec<LeaningFacet>,
     /// The mains and the lower halves.
@@ -131,24 +137,35 @@ pub(super) struct FacetClasses {
 impl FacetClasses {
     /// Finds the facets of a stone that has as many as a round brilliant of eight mains.
     pub fn of(stone: &Stone) -> Result<Self, NotEightfold> {
-        let leaning = |is_up: bool| -> Vec<LeaningFacet> {
-            let facets = stone.polytope.facets().iter().enumerate();
-            let mut all: Vec<LeaningFacet> = facets
-                .filter(|(_, facet)| (facet.plane.normal.z > 0.0) == is_up)
-                .filter_map(|(number, facet)| LeaningFacet::of(&facet.plane, number, stone))
-                .collect();
-            all.sort_by(|a, b| a.slope_deg.total_cmp(&b.slope_deg));
-            all
-        };
-        let (crown, pavilion) = (leaning(true), leaning(false));
+        let zones = FacetZones::of(&stone.polytope);
+        let ((table, crown), (_, pavilion)) = (side(stone, &zones, true), side(stone, &zones, false));
         let counted = |part, between, found: usize, wanted| match found == wanted {
             true => Ok(()),
             false => Err(NotEightfold::Facets { part, between, found, wanted }),
         };
         counted("crown", "girdle and table", crown.len(), 4 * OCTANTS)?;
         counted("pavilion", "girdle and culet", pavilion.len(), 3 * OCTANTS)?;
-        Ok(Self { crown, pavilion })
+        Ok(Self { table, crown, pavilion })
     }
+}
+
+/// Returns the numbers of the level facets of one side of a stone, and its leaning facets, the flattest first.
+fn side(stone: &Stone, zones: &FacetZones, is_up: bool) -> (Vec<usize>, Vec<LeaningFacet>) {
+    let is_girdle =
+        |facet: &Facet| zones.is_girdle(facet) || zones.is_measured() && facet.plane.normal.z.abs() < UPRIGHT;
+    let facets = stone.polytope.facets().iter().enumerate();
+    let of_side = facets.filter(|(_, facet)| (facet.plane.normal.z > 0.0) == is_up && !is_girdle(facet));
+    let is_level = |facet: &Facet| matches!(zones.zone(facet), TierZone::Table | TierZone::Culet);
+    let (level, leaning): (Vec<_>, Vec<_>) = of_side.partition(|(_, facet)| is_level(facet));
+    let mut level: Vec<usize> = level.into_iter().map(|(number, _)| number).collect();
+    let mut leaning: Vec<LeaningFacet> =
+        leaning.into_iter().map(|(number, facet)| LeaningFacet::of(&facet.plane, number, stone)).collect();
+    leaning.sort_by(|a, b| a.slope_deg.total_cmp(&b.slope_deg));
+    let is_leaning_table = zones.is_measured() && level.is_empty();
+    if is_leaning_table && leaning.first().is_some_and(|facet| facet.slope_deg < LEANING_TABLE_DEG) {
+        level.push(leaning.remove(0).number);
+    }
+    (level, leaning)
 }
 
 /// A facet of crown or pavilion.
@@ -163,13 +180,11 @@ pub(super) struct LeaningFacet {
 }
 
 impl LeaningFacet {
-    /// Returns the facet of this plane and number; `None` for table, culet and girdle.
-    fn of(plane: &Plane, number: usize, stone: &Stone) -> Option<Self> {
+    /// Returns the facet of this plane and number.
+    fn of(plane: &Plane, number: usize, stone: &Stone) -> Self {
         let (normal, across) = (plane.normal, plane.normal.truncate());
         let slope_deg = across.length().atan2(normal.z.abs()).to_degrees();
-        let leans = slope_deg >= LEVEL_DEG && normal.z.abs() >= UPRIGHT;
-        let name = || stone.name(number as u32).into_owned();
-        leans.then(|| Self { number, name: name(), azimuth: across.to_angle(), slope_deg })
+        Self { number, name: stone.name(number as u32).into_owned(), azimuth: across.to_angle(), slope_deg }
     }
 }
 

@@ -15,9 +15,6 @@ use crate::trace::{Stopped, Watch};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_4;
 
-/// A facet whose normal leans less than this from the axis (sine of 5°) is the table, as in facets that are found on a mesh.
-const LEVEL: f64 = 0.087_155_743;
-
 /// The layer of arrows that is seen through the table.
 const SHAFT: u8 = 0;
 
@@ -158,7 +155,7 @@ pub fn hearts_and_arrows(
     let (middle, radius) = (outline.middle, outline.diameter / 2.0);
     let arrows = {
         let beams = traced(Side::Table, 0.0)?;
-        arrows(&beams, stone, &OctantFrame { middle, radius, azimuth: mains.azimuth }, (&mains, ring_deg))
+        arrows(&beams, &OctantFrame { middle, radius, azimuth: mains.azimuth }, (&mains, ring_deg))
     };
     let beams = traced(Side::Culet, 0.5)?;
     let frame = OctantFrame { middle, radius, azimuth: mains.azimuth + FRAC_PI_4 / 2.0 };
@@ -167,14 +164,8 @@ pub fn hearts_and_arrows(
 }
 
 /// Returns the arrows: all cells that show the viewer's camera or ring.
-fn arrows(
-    beams: &Beams,
-    stone: &Stone,
-    frame: &OctantFrame,
-    (mains, ring_deg): (&Mains, f64),
-) -> EightfoldPattern {
-    let facets = stone.polytope.facets();
-    let is_table = |facet: u32| facets[facet as usize].plane.normal.truncate().length() < LEVEL;
+fn arrows(beams: &Beams, frame: &OctantFrame, (mains, ring_deg): (&Mains, f64)) -> EightfoldPattern {
+    let is_table = |facet: u32| mains.table.contains(&(facet as usize));
     let octants = OctantPattern::of(beams, frame, |outline, exit| {
         let is_lit = elevation_deg(beams.get(exit).exit, beams.zenith) >= 90.0 - ring_deg;
         let seen_through = beams.facets(outline).first().copied();

@@ -8,6 +8,7 @@ use super::exit_sight::{ExitSight, brightness, seen_apart};
 use super::eye_grid::{EyeCell, rms_contrast};
 use super::face_patterns::{PatternMeasures, PatternSettings};
 use super::interval::Interval;
+use super::measure_name::MeasureName;
 use super::scintillation::Scintillation;
 use crate::math::Polytope;
 use crate::scene::DomeLight;
@@ -120,6 +121,9 @@ pub struct LightMeasures {
     pub scintillation: Option<Scintillation>,
     /// The part of the light that was not followed to its end.
     pub unresolved: f64,
+    /// True where a limit of beams or of memory ended the work before as little light was unresolved as requested, in this
+    /// view or as the stone rocks. All intervals hold the light that was left.
+    pub is_cut_short: bool,
 }
 
 impl LightMeasures {
@@ -151,7 +155,33 @@ impl LightMeasures {
         let absorbed = Interval::from(sums.absorbed, absorbed);
         let pattern = settings.pattern.as_ref();
         let pattern = pattern.map(|pattern| PatternMeasures::of(beams, polytope, &fans, (settings, pattern)));
-        LightMeasures { pattern, ..sums.finish(settings, unresolved, [extinction, contrast, absorbed]) }
+        let is_cut_short = beams.is_cut_short;
+        LightMeasures {
+            pattern,
+            is_cut_short,
+            ..sums.finish(settings, unresolved, [extinction, contrast, absorbed])
+        }
+    }
+
+    /// Returns a sentence that says how much light was left where a limit of beams or of memory ended the work early, and which
+    /// of some measures is therefore the least certain; `None` where the work was done.
+    pub fn cut_short(&self, names: impl IntoIterator<Item = MeasureName>) -> Option<String> {
+        if !self.is_cut_short {
+            return None;
+        }
+        let error = |name: MeasureName| Some((name, name.of(self)?.error()));
+        let widest = names.into_iter().filter_map(error).max_by(|a, b| a.1.total_cmp(&b.1));
+        let widest = widest.map_or(String::new(), |(name, error)| {
+            let error = match error.is_finite() {
+                true => format!("± {:.3} %", 100.0 * error),
+                false => "without an upper end".to_owned(),
+            };
+            format!("; the widest interval is that of {name}, {error}")
+        });
+        Some(format!(
+            "the light takes more beams than memory is set aside for: {:.3} % of it was left, which every interval holds{widest}",
+            100.0 * self.unresolved
+        ))
     }
 }
 
@@ -233,6 +263,7 @@ impl ExitSums {
             pattern: None,
             scintillation: None,
             unresolved,
+            is_cut_short: false,
         }
     }
 }

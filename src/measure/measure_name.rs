@@ -73,7 +73,9 @@ pub struct NoMeasure(pub String);
 /// Returns a hint about the weighted light return, which people may look for among these measures.
 fn hint(text: &str) -> &'static str {
     match text {
-        "wlr" => "; wlr is sampled and has no bound, so only `measure --measures --wlr` takes it",
+        "wlr" => {
+            "; wlr is sampled and has no bound, so it is listed only among the measures of a single view"
+        }
         _ => "",
     }
 }

@@ -52,19 +52,31 @@ fn directions() -> impl Iterator<Item = DVec2> {
 }
 
 impl Scintillation {
-    /// Compares the beams of a view with those of the same stone in [`rocked_views`].
-    pub fn of(beams: &Beams, rocked: &[Beams], head_deg: f64, pattern: &PatternSettings) -> Self {
+    /// Compares the beams of a view with those of the same stone in [`rocked_views`], which are asked for one after the other,
+    /// so that no more than one of them needs to be kept.
+    ///
+    /// # Errors
+    /// The first error of `rocked`.
+    pub fn of<E>(
+        beams: &Beams,
+        rocked: impl IntoIterator<Item = Result<Beams, E>>,
+        head_deg: f64,
+        pattern: &PatternSettings,
+    ) -> Result<Self, E> {
         let grid = |beams: &Beams| EyeGrid::of(beams, &brightness(beams, head_deg), pattern.resolves());
         let start = grid(beams);
         let mean = start.mean();
-        let pairs: Vec<Changes> = rocked.iter().map(|beams| Changes::of(&start, grid(beams))).collect();
-        let average = |of: &dyn Fn(&Changes) -> Interval| {
-            let each: Vec<Interval> = pairs.iter().map(of).collect();
-            let n = each.len().max(1) as f64;
-            let sum = |pick: fn(&Interval) -> f64| each.iter().map(pick).sum::<f64>() / n;
+        let compared = rocked.into_iter().map(|beams| {
+            let changes = Changes::of(&start, grid(&beams?));
+            Ok((changes.mean(mean), changes.size(mean)))
+        });
+        let each: Vec<(Interval, Interval)> = compared.collect::<Result<_, E>>()?;
+        let n = each.len().max(1) as f64;
+        let average = |pick: fn(&(Interval, Interval)) -> Interval| {
+            let sum = |end: fn(Interval) -> f64| each.iter().map(|of| end(pick(of))).sum::<f64>() / n;
             Interval { least: sum(|of| of.least), most: sum(|of| of.most) }
         };
-        Self { change: average(&|changes| changes.mean(mean)), size: average(&|changes| changes.size(mean)) }
+        Ok(Self { change: average(|of| of.0), size: average(|of| of.1) })
     }
 }
 

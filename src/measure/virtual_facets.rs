@@ -12,12 +12,15 @@ use glam::{DMat2, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
-/// The hashed lists of facets that the parts of virtual facets have met.
+/// The virtual facets that have a part in the stored domain, by numbers from 0.
 pub(super) struct VirtualFacets<'a> {
     beams: &'a Beams,
-    order: usize,
-    /// The hash of each beam's list in each copy of the domain, the domain itself first.
-    hashes: Vec<u64>,
+    /// The number of virtual facets.
+    count: usize,
+    /// The virtual facet of each beam in the domain itself.
+    own: Vec<u32>,
+    /// The parts of these virtual facets in the other copies of the domain, each as a beam and a virtual facet.
+    others: Vec<(u32, u32)>,
 }
 
 impl<'a> VirtualFacets<'a> {
@@ -25,26 +28,35 @@ impl<'a> VirtualFacets<'a> {
     pub fn of(beams: &'a Beams, polytope: &Polytope) -> Self {
         let copies = beams.symmetry.copies();
         let images: Vec<Vec<u64>> = copies.iter().map(|copy| images(polytope, &beams.view, copy)).collect();
-        let order = copies.len();
-        let mut hashes = Vec::with_capacity(beams.len() * order);
-        for beam in beams.iter() {
-            for (copy, images) in images.iter().enumerate() {
-                let before = beam.parent.map_or(0, |parent| hashes[parent as usize * order + copy]);
-                hashes.push(mixed((before ^ (images[beam.facet as usize] + 1)).wrapping_mul(GAMMA)));
+        let mut numbers: HashMap<u64, u32> = HashMap::with_capacity(beams.len());
+        let (mut own, mut others) = (Vec::with_capacity(beams.len()), vec![]);
+        // The domain itself comes first. One copy after the other takes a fraction of the memory of all at once.
+        for (copy, images) in images.iter().enumerate() {
+            let hashes = hashed_lists(beams, images);
+            if copy == 0 {
+                own.extend(hashes.into_iter().map(|hash| {
+                    let next = numbers.len() as u32;
+                    *numbers.entry(hash).or_insert(next)
+                }));
+                continue;
             }
+            let found = (0..).zip(&hashes).filter_map(|(id, hash)| Some((id, *numbers.get(hash)?)));
+            others.extend(found);
         }
-        Self { beams, order, hashes }
+        Self { beams, count: numbers.len(), own, others }
     }
 
     /// Adds up a number of each beam over the parts of whole virtual facets, and returns for each beam the sum of the virtual facet that
     /// it is a part of.
     fn wholes(&self, of_beam: &[f64]) -> Vec<f64> {
-        let mut sums: HashMap<u64, f64> = HashMap::with_capacity(self.hashes.len());
-        for (parts, &value) in self.hashes.chunks_exact(self.order).zip(of_beam) {
-            parts.iter().for_each(|hash| *sums.entry(*hash).or_default() += value);
+        let mut sums = vec![0.0; self.count];
+        for (&whole, value) in self.own.iter().zip(of_beam) {
+            sums[whole as usize] += value;
         }
-        let own = self.hashes.iter().step_by(self.order);
-        own.map(|hash| sums.get(hash).copied().unwrap_or_default()).collect()
+        for &(id, whole) in &self.others {
+            sums[whole as usize] += of_beam[id as usize];
+        }
+        self.own.iter().map(|&whole| sums[whole as usize]).collect()
     }
 
     /// Returns the area of each beam's virtual facet, as an interval, because unfollowed parts may make it larger.
@@ -84,6 +96,16 @@ impl<'a> VirtualFacets<'a> {
         let most = sum(&|k| certain[k] < limit) + beams.undecided(&cells);
         Interval { least, most }
     }
+}
+
+/// Returns for each beam the hash of the list of facets that it has met, with the images of the facets in a copy of the domain.
+fn hashed_lists(beams: &Beams, images: &[u64]) -> Vec<u64> {
+    let mut hashes: Vec<u64> = Vec::with_capacity(beams.len());
+    for beam in beams.iter() {
+        let before = beam.parent.map_or(0, |parent| hashes[parent as usize]);
+        hashes.push(mixed((before ^ (images[beam.facet as usize] + 1)).wrapping_mul(GAMMA)));
+    }
+    hashes
 }
 
 /// Returns the number of the facet that a copy of the domain has in the place of each facet.

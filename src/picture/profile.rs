@@ -75,8 +75,8 @@ pub(crate) struct Dimensions {
 }
 
 impl Dimensions {
-    /// Measures the dimensions of any stone, in percent of its diameter. Crown, girdle and pavilion meet at the girdle's edges as
-    /// [`Outline`] measures them, so that they are those of `info` and of sheets.
+    /// Measures the dimensions of any stone, in percent of its diameter. Crown, girdle and pavilion meet at the girdle's edges at
+    /// the mains, so that they are those that a design gives, and those of its report.
     pub fn measured(stone: &Stone, basis: &Basis) -> Self {
         let polytope = &stone.polytope;
         let (left, right) = extent(polytope.vertices().iter().copied(), basis.right);
@@ -92,7 +92,7 @@ impl Dimensions {
         };
         let table = corners(TierZone::Table);
         let has_girdle = polytope.facets().iter().any(|facet| zones.is_girdle(facet));
-        let girdle = has_girdle.then_some((outline.girdle_bottom, outline.girdle_top));
+        let girdle = has_girdle.then_some(outline.girdle_at_mains);
         let table = (!table.is_empty()).then(|| extent(table.into_iter(), basis.right));
         let lowest = polytope.vertices().iter().copied().filter(|v| v.z - low <= NOTHING * diameter);
         let culet = extent(lowest, basis.right);
@@ -101,9 +101,9 @@ impl Dimensions {
             width: span(left, right),
             total: span(high, low),
             table: table.map(|(from, to)| span(from, to)),
-            crown: girdle.map(|(_, upper)| span(high, upper)).filter(something),
-            girdle: girdle.map(|(lower, upper)| span(upper, lower)),
-            pavilion: girdle.map(|(lower, _)| span(lower, low)).filter(something),
+            crown: girdle.map(|[_, upper]| span(high, upper)).filter(something),
+            girdle: girdle.map(|[lower, upper]| span(upper, lower)),
+            pavilion: girdle.map(|[lower, _]| span(lower, low)).filter(something),
         }
     }
 
@@ -131,22 +131,19 @@ fn measured_profile(stone: &Stone, title: &str) -> Document {
     drawing.width("width", 1.0);
     let mut remarks = vec![format!("Length / width {:.2}", (far - near) / dimensions.width.length())];
     if has_wavy_girdle(stone) {
-        remarks
-            .push("Girdle: between its edges, beyond each of which a tenth of its corners lies.".to_owned());
+        remarks.push(
+            "Girdle, crown and pavilion: at the mains, where the girdle's edges lie farthest out.".to_owned(),
+        );
     }
     let Outline { diameter, width, .. } = Outline::of(&stone.polytope);
     let of = if diameter > width { "diameter" } else { "width" };
     drawing.sheet.document(title, &format!("profile · percent of the {of}, measured on the planes"), &remarks)
 }
 
-/// Returns whether corners of the girdle lie beyond its edges.
+/// Returns whether the girdle is thicker at the mains than between them.
 fn has_wavy_girdle(stone: &Stone) -> bool {
-    let (polytope, outline) = (&stone.polytope, Outline::of(&stone.polytope));
-    let zones = FacetZones::of(polytope);
-    let upright = polytope.facets().iter().filter(|facet| zones.is_girdle(facet));
-    let (low, high) = extent(upright.flat_map(|facet| polytope.corners(facet)), DVec3::Z);
-    let least = NOTHING * outline.diameter;
-    outline.girdle_bottom - low > least || high - outline.girdle_top > least
+    let outline = Outline::of(&stone.polytope);
+    outline.girdle_thickness() - (outline.girdle_top - outline.girdle_bottom) > NOTHING * outline.diameter
 }
 
 /// Returns the side view that shows the stone's width: along x or y if the stone is nearly narrowest that way, otherwise
@@ -159,7 +156,7 @@ pub(crate) fn across_the_width(stone: &Stone) -> Basis {
     };
     let axis = if width(DVec3::X) <= width(DVec3::Y) { DVec3::X } else { DVec3::Y };
     let outline = hull(vertices.iter().map(|v| v.truncate()).collect());
-    let narrowest = Calipers::along_mirror(&outline).map_or(axis, |found| found.across.extend(0.0));
+    let narrowest = Calipers::of_stone(&outline).map_or(axis, |found| found.across.extend(0.0));
     let right = if width(axis) <= NEARLY_NARROWEST * width(narrowest) { axis } else { narrowest };
     Basis { right, up: DVec3::Z, toward: right.cross(DVec3::Z) }
 }
@@ -414,7 +411,7 @@ mod tests {
             "{parts:?}"
         );
         assert!((parts.iter().sum::<f64>() - total).abs() < 1e-9);
-        assert!(parts[1] < given.girdle_thickness, "a tenth of the corners lies beyond each edge");
+        assert!((parts[1] - given.girdle_thickness).abs() < 1e-9, "{parts:?}");
     }
 
     #[test]

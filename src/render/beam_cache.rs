@@ -9,8 +9,9 @@ use std::sync::Arc;
 /// The most sets of beams that are kept.
 const MOST_KEPT: usize = 6;
 
-/// The most beams that are kept in all sets: as many as the largest set has, which may be kept alone.
-const MOST_BEAMS: usize = 6_000_000;
+/// The most memory of the beams of all sets while others are traced, bytes. The set that was made last may be larger, but
+/// then it is kept alone.
+const MOST_BYTES: usize = 128 << 20;
 
 /// Beams that several pictures share.
 #[derive(Default)]
@@ -48,9 +49,9 @@ impl BeamCache {
             return Ok(beams);
         }
         // Old sets make room before the new one takes its memory.
-        self.shrink(MOST_KEPT - 1, MOST_BEAMS);
+        self.shrink(MOST_KEPT - 1, MOST_BYTES);
         let beams = Arc::new(beam::trace(polytope, medium, view, options, watch)?);
-        self.shrink(MOST_KEPT - 1, MOST_BEAMS.saturating_sub(beams.len()));
+        self.shrink(MOST_KEPT - 1, MOST_BYTES.saturating_sub(beams.bytes()));
         let (body, view, options) = (Arc::clone(body), *view, *options);
         let used = self.round;
         self.kept.push(Kept { body, medium, view, options, beams: Arc::clone(&beams), used });
@@ -76,12 +77,12 @@ impl BeamCache {
         Some(beams)
     }
 
-    /// Drops the sets that were not used for the longest time, until there are at most so many sets with at most so
-    /// many beams.
-    fn shrink(&mut self, most_sets: usize, most_beams: usize) {
-        let mut beams: usize = self.kept.iter().map(|kept| kept.beams.len()).sum();
-        while self.kept.len() > most_sets || beams > most_beams {
-            beams -= self.kept.remove(0).beams.len();
+    /// Drops the sets that were not used for the longest time, until there are at most so many sets whose beams take at
+    /// most so many bytes.
+    fn shrink(&mut self, most_sets: usize, most_bytes: usize) {
+        let mut bytes: usize = self.kept.iter().map(|kept| kept.beams.bytes()).sum();
+        while self.kept.len() > most_sets || bytes > most_bytes {
+            bytes -= self.kept.remove(0).beams.bytes();
         }
     }
 
@@ -134,10 +135,10 @@ mod tests {
     #[test]
     fn sets_are_dropped_until_their_beams_fit() {
         let (mut cache, cube) = (BeamCache::default(), cube());
-        let counts = [1.5, 1.6, 1.7].map(|index| beams(&mut cache, &cube, index).len());
-        cache.shrink(MOST_KEPT, counts.iter().sum());
+        let bytes = [1.5, 1.6, 1.7].map(|index| beams(&mut cache, &cube, index).bytes());
+        cache.shrink(MOST_KEPT, bytes.iter().sum());
         assert_eq!(kept(&cache), [1.5, 1.6, 1.7]);
-        cache.shrink(MOST_KEPT, counts[1] + counts[2]);
+        cache.shrink(MOST_KEPT, bytes[1] + bytes[2]);
         assert_eq!(kept(&cache), [1.6, 1.7]);
         cache.shrink(MOST_KEPT, 0);
         assert!(kept(&cache).is_empty());

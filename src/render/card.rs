@@ -131,7 +131,7 @@ impl Backend {
             #[cfg(feature = "gpu")]
             Self::Card(gpu) => gpu.is_software().then(|| {
                 format!(
-                    "{} is no graphics card: it computes in software, on the processor; rays (--tracer ray) are quicker",
+                    "{} is no graphics card: it computes in software, on the processor; the tracer by rays is quicker",
                     gpu.name()
                 )
             }),

@@ -233,6 +233,7 @@ impl MapProduct {
         demand_count("bands", self.bands, &BANDS)?;
         demand_count("places", self.places, &PLACES)?;
         demand_count("shades", self.shades, &SHADES)?;
+        share("strength", self.strength)?;
         self.surroundings.check()
     }
 }

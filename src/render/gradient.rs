@@ -97,21 +97,21 @@ impl Sweep {
         names: &[MeasureName],
         watch: Watch,
     ) -> Result<GradedStone, SweepError> {
-        self.graded(&self.plane_changes(keys)?, names, watch)
+        self.graded(&self.plane_changes(keys)?, (names, 1), watch)
     }
 
     /// Measures the design itself, which belongs to no point of the axes, and returns the derivatives of some
-    /// measures for changes of the planes.
+    /// measures for changes of the planes. It takes one part of so many of the memory of beams.
     ///
     /// # Errors
     /// Fails with a [`SweepError`] for a measure without derivatives, or a stone that cannot be made or traced.
     pub fn graded(
         &self,
         changes: &PlaneChanges,
-        names: &[MeasureName],
+        (names, parts): (&[MeasureName], usize),
         watch: Watch,
     ) -> Result<GradedStone, SweepError> {
-        let (taken, specimen) = self.taken(self.start(), names.to_vec(), watch)?;
+        let (taken, specimen) = self.taken(self.start(), (names.to_vec(), parts), watch)?;
         let of_name = |(name, found): (&MeasureName, Option<MeasureDerivatives>)| {
             let found = found.ok_or_else(|| {
                 SweepError::NoDerivative(format!(
@@ -132,7 +132,10 @@ impl Sweep {
             Ok(MeasureGradient { name: *name, value: found.value, per, sides })
         };
         let gradients: Result<_, SweepError> = names.iter().zip(taken.derivatives).map(of_name).collect();
-        Ok(GradedStone { stone: SweptStone::of(taken.measures, specimen), gradients: gradients? })
+        Ok(GradedStone {
+            stone: SweptStone::of(taken.measures, &self.settings, specimen),
+            gradients: gradients?,
+        })
     }
 
     /// Returns the derivatives of the planes of the design itself, which belongs to no point of the axes, by some

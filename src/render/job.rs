@@ -124,6 +124,8 @@ pub struct MapProduct {
     pub shades: u32,
     /// True where the eye is adapted to the light.
     pub adapted: bool,
+    /// The strength of refraction: the part of its turn that refracted light takes, 0 to 1; 1 is physics.
+    pub strength: f64,
 }
 
 /// A pane of liquid glass, traced as real glass.
@@ -288,6 +290,6 @@ impl MapProduct {
             Strata::new(count, shares, &self.surroundings.lighting.light.spectrum, self.adapted)
         };
         let (bands, shades) = (strata(self.bands, 1), strata(self.shades, passes));
-        work(&Survey { bands: &bands, places: self.places, shades: &shades, passes })
+        work(&Survey { bands: &bands, places: self.places, shades: &shades, passes, strength: self.strength })
     }
 }

@@ -15,6 +15,7 @@ mod scope;
 mod surroundings;
 mod sweep;
 mod sweep_key;
+mod sweep_run;
 
 #[cfg(test)]
 mod tests;

@@ -76,7 +76,7 @@ pub enum Unfit {
     Metal,
     /// A stone has frosted facets, which exact beams, graphics cards and refraction maps know nothing of.
     #[error(
-        "the stone has frosted facets, which scatter light: trace by rays, and make no refraction map or measures of light of it"
+        "the stone has frosted facets, which scatter light: trace by rays, and make no refraction map of it"
     )]
     Frosted,
     /// The scene has several bodies, a body that is not convex, a perspective, or a backplate.
@@ -119,7 +119,7 @@ impl Demands {
     /// Fails with [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot
     /// see it; [`Unfit::Metal`] where the scene has metal and the product is no picture under light;
     /// [`Unfit::OnlyBeams`] where measures of light are requested of something that beams do not trace;
-    /// [`Unfit::Frosted`] for a refraction map, or measures of light, of frosted facets.
+    /// [`Unfit::Frosted`] for a refraction map of frosted facets.
     pub fn of(job: &Job) -> Result<Self, Unfit> {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
@@ -129,7 +129,7 @@ impl Demands {
                 Err(Unfit::Metal)
             }
             Product::Scope(_) | Product::Figures(_) => Self::of_scope(job.stone()?, &job.view),
-            Product::RefractionMap(_) | Product::Measures(_) if job.scene.is_frosted() => Err(Unfit::Frosted),
+            Product::RefractionMap(_) if job.scene.is_frosted() => Err(Unfit::Frosted),
             Product::Measures(_) => Self::of_measures(job),
             Product::RefractionMap(_) | Product::LiquidGlass(_) => {
                 Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing, no_card: None })
@@ -148,18 +148,29 @@ impl Demands {
         if Camera::new(view, solid).reach(solid).is_none() {
             return Err(Unfit::Eye);
         }
+        // Rays count the light that meets frosted facets as unresolved.
+        if matches!(solid, SolidRef::Convex(polytope) if polytope.is_frosted()) {
+            return Ok(Self::frosted());
+        }
+        Ok(Self::of_polished(solid, view))
+    }
+
+    /// Returns the demands of a scope or of figures of a solid whose facets count as polished.
+    fn of_polished(solid: SolidRef, view: &View) -> Self {
         let against_beams = match solid {
-            // Rays count the light that meets frosted facets as unresolved.
-            SolidRef::Convex(polytope) if polytope.is_frosted() => return Ok(Self::frosted()),
             _ if view.projection != Projection::Orthographic => Some(Unfit::Perspective),
             SolidRef::Convex(_) => None,
             SolidRef::Triangles(_) | SolidRef::Smooth(_) => Some(NotConvex.into()),
         };
-        Ok(Self { against_beams, card: CardWorth::Little, no_card: None })
+        Self { against_beams, card: CardWorth::Little, no_card: None }
     }
 
+    /// Returns the demands of measures of light. They are those of the stone as if all its facets were polished, which is
+    /// said where a stone with frosted facets is built.
     fn of_measures(job: &Job) -> Result<Self, Unfit> {
-        let demands = Self::of_scope(job.stone()?, &job.view)?;
+        let solid = job.stone()?;
+        Self::of_scope(solid, &job.view)?;
+        let demands = Self::of_polished(solid, &job.view);
         let is_asked = matches!(job.quality.tracer, Wanted::Beams | Wanted::Quickest);
         if is_asked && demands.against_beams.is_none() { Ok(demands) } else { Err(Unfit::OnlyBeams) }
     }

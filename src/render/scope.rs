@@ -9,9 +9,13 @@ use crate::measure::{self, Figures, LightMeasures, Scintillation, measured, rock
 use crate::picture::{Layer, Rows, by_rays, paint};
 use crate::scene::{Body, Medium, Scope};
 use crate::trace::beam::{self, BeamOptions, Beams, SumOptions};
-use crate::trace::{ScopeShot, Watch};
+use crate::trace::{ScopeShot, Stopped, Watch};
 use glam::DVec2;
 use std::sync::Arc;
+
+/// The parts of the memory of beams of which one belongs to each rocked view. There are twelve, so that a view may take as
+/// many beams only if all together take a bearable time.
+const ROCKED_PARTS: usize = 8;
 
 impl Renderer {
     /// Traces a picture in a scope, and hands out its rows.
@@ -84,15 +88,21 @@ impl Renderer {
         let (body, polytope) = job.convex()?;
         let rocking = settings.pattern.and_then(|pattern| Some((pattern, pattern.rock_deg?)));
         let share = |done: f64| watch(if rocking.is_some() { 0.2 * done } else { done });
-        let beams = self.beams.of((body, polytope), *medium, &job.view, &job.quality.beams, &share)?;
+        // Derivatives take five times the memory of the beams besides, and each rocked view's beams stand beside these.
+        let parts = 1 + 5 * usize::from(!derivatives.is_empty()) + usize::from(rocking.is_some());
+        let options = job.quality.beams.with_part_of_memory(parts);
+        let beams = self.beams.of((body, polytope), *medium, &job.view, &options, &share)?;
         let derivatives =
             derivatives.iter().map(|name| name.derivatives(&beams, polytope, settings)).collect();
         let mut measures = LightMeasures::of(&beams, polytope, settings);
-        if let Some(rocking) = rocking {
+        if let Some((pattern, rock_deg)) = rocking {
             let rest = |done: f64| watch(0.2 + 0.8 * done);
-            let rocked = job.rocked(polytope, *medium, rocking.1, &rest)?;
-            let (head, pattern) = (settings.head_deg, &rocking.0);
-            measures.scintillation = Some(Scintillation::of(&beams, &rocked, head, pattern));
+            let mut is_cut_short = false;
+            let rocked = job.rocked(polytope, *medium, rock_deg, &rest);
+            let rocked = rocked.inspect(|beams| is_cut_short |= beams.as_ref().is_ok_and(|b| b.is_cut_short));
+            let found = Scintillation::of(&beams, rocked, settings.head_deg, &pattern)?;
+            measures.is_cut_short |= is_cut_short;
+            measures.scintillation = Some(found);
         }
         Ok(Output::Measures(Box::new(TakenMeasures { measures, derivatives })))
     }
@@ -156,26 +166,26 @@ impl Job {
         }
     }
 
-    /// Traces the stone rocked into each direction.
+    /// Traces the stone rocked into each direction, one after the other.
     ///
     /// Rocked stones are seen without most of their symmetry, so ten times as much of their light may stay unresolved as in
-    /// the view itself: the bounds of scintillation stay below its own range of a few percent, at a bearable time.
-    fn rocked(
-        &self,
-        polytope: &Polytope,
+    /// the view itself: the bounds of scintillation stay below its own range of a few percent, at a bearable time. For the
+    /// same reason each has an eighth of the memory.
+    fn rocked<'a>(
+        &'a self,
+        polytope: &'a Polytope,
         medium: Medium,
         rock_deg: f64,
-        watch: Watch,
-    ) -> Result<Vec<Beams>, RenderError> {
+        watch: Watch<'a>,
+    ) -> impl Iterator<Item = Result<Beams, Stopped>> + 'a {
         let unresolved = (10.0 * self.quality.beams.unresolved).min(0.1).max(self.quality.beams.unresolved);
-        let options = BeamOptions { unresolved, ..self.quality.beams };
+        let options = BeamOptions { unresolved, ..self.quality.beams }.with_part_of_memory(ROCKED_PARTS);
         let views = rocked_views(&self.view, rock_deg);
         let count = views.len() as f64;
-        let traced = views.iter().enumerate().map(|(number, view)| {
+        views.into_iter().enumerate().map(move |(number, view)| {
             let share = |done: f64| watch((number as f64 + done) / count);
-            beam::trace(polytope, medium, view, &options, &share)
-        });
-        Ok(traced.collect::<Result<_, _>>()?)
+            beam::trace(polytope, medium, &view, &options, &share)
+        })
     }
 
     /// Returns the body that exact beams trace, with its polytope.

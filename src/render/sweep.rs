@@ -3,7 +3,7 @@
 use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::sweep_key::{PERCENT_OF_SIDE, SweepKey};
-use super::{Card, Unfit, Wanted};
+use super::{Card, Wanted};
 use crate::cut::{
     Cut, Design, DesignError, MachineSetting, MaterialError, MaterialRef, MeetError, Proportion, ScaleError,
     scaled,
@@ -11,14 +11,9 @@ use crate::cut::{
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use crate::optics::{DispersionError, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
-use crate::trace::{Stopped, Watch};
-use rayon::prelude::*;
+use crate::trace::Watch;
 use std::fmt;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// The number of points that are measured before they are handed out.
-const AT_ONCE: usize = 64;
 
 /// The relative difference up to which a distance counts as the one that was set.
 const SAME_DISTANCE: f64 = 1e-9;
@@ -92,13 +87,16 @@ pub struct SweptStone {
     pub measures: LightMeasures,
     /// The weight in carats; `None` where the material's density is not known.
     pub carats: Option<f64>,
-    /// Warnings about the stone, such as a facet that no longer touches it, each in a sentence.
+    /// Warnings about the stone and its measures, such as a facet that no longer touches it, each in a sentence.
     pub warnings: Vec<String>,
 }
 
 impl SweptStone {
-    pub(super) fn of(measures: LightMeasures, specimen: Specimen) -> Self {
-        Self { measures, carats: specimen.carats(), warnings: specimen.warnings }
+    pub(super) fn of(measures: LightMeasures, settings: &MeasureSettings, specimen: Specimen) -> Self {
+        let carats = specimen.carats();
+        let mut warnings = specimen.warnings;
+        warnings.extend(measures.cut_short(MeasureName::all(settings)));
+        Self { measures, carats, warnings }
     }
 }
 
@@ -198,13 +196,7 @@ pub enum SweepError {
 impl SweepError {
     /// Returns whether the design is at fault, whatever is varied and measured.
     pub fn is_of_design(&self) -> bool {
-        matches!(
-            self,
-            Self::NotConvex(_)
-                | Self::Specimen(_)
-                | Self::FacetComes { .. }
-                | Self::Render(RenderError::Unfit(Unfit::Frosted))
-        )
+        matches!(self, Self::NotConvex(_) | Self::Specimen(_) | Self::FacetComes { .. })
     }
 }
 
@@ -254,38 +246,6 @@ impl Sweep {
         Ok(())
     }
 
-    /// Measures the points of these numbers on all cores, and hands them out in the given order.
-    ///
-    /// # Errors
-    /// Fails with [`Stopped`] when `watch` asks to stop, or an error of `each`, each turned into `E`.
-    pub fn run<E: From<Stopped>>(
-        &self,
-        points: impl IntoIterator<Item = usize>,
-        watch: Watch,
-        mut each: impl FnMut(usize, Result<SweptStone, SweepError>) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let points: Vec<usize> = points.into_iter().collect();
-        let (all, done) = (points.len().max(1) as f64, AtomicUsize::new(0));
-        for part in points.chunks(AT_ONCE) {
-            let found: Vec<_> = part
-                .par_iter()
-                .map(|&point| {
-                    let done_part = || done.load(Ordering::Relaxed) as f64 / all;
-                    let found = self.point(point, &|_| watch(done_part()));
-                    done.fetch_add(1, Ordering::Relaxed);
-                    found
-                })
-                .collect();
-            for (&point, found) in part.iter().zip(found) {
-                match found {
-                    Err(SweepError::Render(RenderError::Stopped(stopped))) => return Err(stopped.into()),
-                    found => each(point, found)?,
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Returns the design at a point, whose number is below [`count`](Self::count). It is not checked whether the
     /// design makes a stone.
     ///
@@ -295,33 +255,36 @@ impl Sweep {
         Ok(self.varied(point)?.design)
     }
 
-    /// Measures one point.
+    /// Measures one point with one part of the memory of beams, of as many parts as there may be such points at a time.
     ///
     /// # Errors
     /// Fails with a [`SweepError`] where there is no stone, no index there, or a stone that exact beams do not trace.
-    pub fn point(&self, point: usize, watch: Watch) -> Result<SweptStone, SweepError> {
-        let (taken, specimen) = self.taken(self.varied(point)?, vec![], watch)?;
-        Ok(SweptStone::of(taken.measures, specimen))
+    pub fn point(&self, point: usize, parts: usize, watch: Watch) -> Result<SweptStone, SweepError> {
+        let (taken, specimen) = self.taken(self.varied(point)?, (vec![], parts), watch)?;
+        Ok(SweptStone::of(taken.measures, &self.settings, specimen))
     }
 
-    /// Takes the measures of a varied design, with the derivatives of some; returns them with its stone.
+    /// Takes the measures of a varied design, with the derivatives of some and one part of so many of the memory of beams; returns
+    /// them with its stone.
     pub(super) fn taken(
         &self,
         varied: VariedDesign,
-        derivatives: Vec<MeasureName>,
+        (derivatives, parts): (Vec<MeasureName>, usize),
         watch: Watch,
     ) -> Result<(TakenMeasures, Specimen), SweepError> {
         let VariedDesign { design, viewpoint, index, .. } = varied;
         let specimen = Specimen::new(design)?;
         let (medium, indices) = self.optics(&specimen.material, index, specimen.unit_mm())?;
         let settings = MeasureSettings { indices, ..self.settings.clone() }.at_size(specimen.unit_mm());
-        let bounds = Bounds::exact(self.unresolved);
+        let bounds = Bounds { polarised: self.polarised, ..Bounds::exact(self.unresolved) };
+        let mut quality = Quality::of_figures(&bounds, Wanted::Quickest);
+        quality.beams = quality.beams.with_part_of_memory(parts);
         let job = Job {
             scene: Arc::new(Scene::alone(&specimen)),
             view: viewpoint.view(),
             film: Film::NONE,
             product: Product::Measures(MeasuresProduct { settings, medium, derivatives }),
-            quality: Quality::of_figures(&Bounds { polarised: self.polarised, ..bounds }, Wanted::Quickest),
+            quality,
         };
         let rendered = Renderer::new(Card::None).run(&job, watch, &mut |_| Ok::<_, RenderError>(()))?;
         Ok((rendered.measures()?, specimen))

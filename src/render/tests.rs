@@ -169,7 +169,8 @@ fn map() -> Job {
         _ => unreachable!("the job is of a picture under light"),
     };
     let plane = Backdrop { distance: 3.0, size: DVec2::splat(4.0), both_sides: false };
-    let map = MapProduct { surroundings, plane, bands: 1, places: 1, shades: 0, adapted: true };
+    let map =
+        MapProduct { surroundings, plane, bands: 1, places: 1, shades: 0, adapted: true, strength: 1.0 };
     job(alone(), Product::RefractionMap(map))
 }
 

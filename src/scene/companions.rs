@@ -127,11 +127,6 @@ impl Companions {
         self.stones.iter().flat_map(corners).chain(self.metals.iter().flat_map(MetalInstance::vertices))
     }
 
-    /// Returns half the side of the square about the origin that holds all bodies, seen from above.
-    pub fn across(&self) -> f64 {
-        self.vertices().map(|at| at.truncate().abs().max_element()).fold(0.0, f64::max)
-    }
-
     /// Returns a distance from the origin that no body exceeds.
     pub fn reach(&self) -> f64 {
         let stones = self.stones.iter().map(|s| s.pose.at.length() + s.specimen.radius * s.pose.scale);

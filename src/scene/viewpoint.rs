@@ -1,6 +1,7 @@
 //! A viewpoint: the direction from which a stone is seen, in degrees, as people write and read it.
 
 use super::{Lean, Projection, Side, View};
+use crate::math::rounded;
 use glam::DQuat;
 
 /// A [`View`] of a stone that is not turned, with its angles in degrees, as given.
@@ -40,9 +41,7 @@ impl Viewpoint {
     /// plain one. It is empty for the plain view, face up by parallel rays.
     pub fn suffix(&self) -> String {
         let mut suffix = String::new();
-        // Numbers are rounded, because those that come from radians have meaningless last digits.
-        let mut add =
-            |what: &str, number: f64| suffix += &format!("-{what}-{}", (number * 1e6).round() / 1e6);
+        let mut add = |what: &str, number: f64| suffix += &format!("-{what}-{}", in_a_name(number));
         if self.tilt_deg != 0.0 {
             add(if self.lean == Lean::Stone { "tilt" } else { "eye-tilt" }, self.tilt_deg);
         }
@@ -60,8 +59,8 @@ impl Viewpoint {
         let (side, tilt, azimuth) = (self.side.name(), self.tilt_deg, self.azimuth_deg);
         let tilt = match self.lean {
             _ if tilt == 0.0 => String::new(),
-            Lean::Stone => format!(", tilted {tilt} degrees toward {azimuth}"),
-            Lean::Eye => format!(", eye moved {tilt} degrees toward {azimuth}"),
+            Lean::Stone => format!(", tilted {} degrees toward {}", in_a_name(tilt), in_a_name(azimuth)),
+            Lean::Eye => format!(", eye moved {} degrees toward {}", in_a_name(tilt), in_a_name(azimuth)),
         };
         let near = match self.projection {
             Projection::Orthographic => String::new(),
@@ -71,6 +70,14 @@ impl Viewpoint {
         };
         format!("{side} side{tilt}{near}")
     }
+}
+
+/// Returns a number as names of files have it: with three decimals where it has no more, as people write numbers, and else
+/// with two.
+fn in_a_name(number: f64) -> String {
+    let written = rounded(number, 3);
+    let is_whole = written.parse().is_ok_and(|short: f64| (short - number).abs() < 1e-6);
+    if is_whole { written } else { rounded(number, 2) }
 }
 
 impl From<View> for Viewpoint {
@@ -116,6 +123,8 @@ mod tests {
             (tilted, "-tilt-7.5-azimuth--10"),
             (eye, "-eye-tilt--4"),
             (far, "-perspective-8"),
+            (Viewpoint { tilt_deg: 61.106_482_3, azimuth_deg: 0.125, ..up }, "-tilt-61.11-azimuth-0.125"),
+            (Viewpoint { tilt_deg: 15.0 + 1e-9, ..up }, "-tilt-15"),
             (tilted.facing(Some(Side::Culet)), "-culet-tilt-7.5-azimuth--10"),
         ];
         names.iter().for_each(|(viewpoint, suffix)| assert_eq!(viewpoint.suffix(), *suffix));

@@ -17,6 +17,10 @@ pub struct Goal {
     /// The name of the goal, for people.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
+    /// True where an audit of the found design may find more than one of the given design. Otherwise a search also keeps facets and
+    /// edges from becoming tiny and the girdle about as thick as it is.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub new_findings: bool,
     /// The measures that are weighed, at least one.
     pub measure: Vec<GoalMeasure>,
     /// The numbers that may change, with the least and the greatest value of each: keys of proportions, `tier:` or
@@ -139,11 +143,12 @@ impl Goal {
     /// Makes a goal that weighs measures of the design face up, in its own material.
     pub fn of(measures: impl IntoIterator<Item = (MeasureName, f64)>) -> Self {
         let measure = measures.into_iter().map(|(of, weight)| GoalMeasure::new(of, weight)).collect();
-        Self { name: None, measure, vary: BTreeMap::new(), limit: BTreeMap::new() }
+        Self { name: None, new_findings: false, measure, vary: BTreeMap::new(), limit: BTreeMap::new() }
     }
 
     /// Makes the default goal: bright and fiery. Half of the brightness is that of a viewer whose head hides 10°
-    /// about the axis, half that of one who is far away.
+    /// about the axis, half that of one who is far away. Neither fire nor the brightness under the head may fall below that of
+    /// the given design: a design without fire is not bright and fiery, however much light it returns.
     ///
     /// The weights are our own choice. Among round brilliants of table 57 % in diamond the total is greatest around a
     /// crown of 34° over a pavilion of 41° and of 37° over 40.4°, within GIA's range for the best; a return without
@@ -154,7 +159,9 @@ impl Goal {
             (MeasureName::Return(DomeLight { head_deg: 10.0, ..DomeLight::of(2.0) }), 0.5),
             (MeasureName::Fire, 1.0),
         ];
-        Self { name: Some("bright and fiery".to_owned()), ..Self::of(weighed) }
+        let mut goal = Self { name: Some("bright and fiery".to_owned()), ..Self::of(weighed) };
+        goal.measure.iter_mut().skip(1).for_each(|measure| measure.may_lose = Some(0.0));
+        goal
     }
 
     /// Checks that the goal has a measure to raise or lower, and that its numbers are in their ranges.

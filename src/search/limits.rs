@@ -1,8 +1,9 @@
 //! Limits on the geometry of a stone.
 
 use super::appraisal::SearchError;
-use super::goal::Goal;
-use crate::cut::{Cut, Design, Proportion, ProportionReport, SheetFigures};
+use super::goal::{AtLeastAtMost, Goal};
+use super::kept_shape::{FindingCounts, audit_of, usual_limits};
+use crate::cut::{Design, Proportion, ProportionReport, SheetFigures, SmallestParts};
 use crate::optics::{critical_angle, line};
 use crate::scene::{Specimen, Stone};
 
@@ -11,18 +12,30 @@ use crate::scene::{Specimen, Stone};
 /// - `above_critical`: the degrees by which the flattest facet of the pavilion is steeper than the critical angle, in
 ///   the material of the goal with the lowest index;
 /// - `yield`: the volume in cubes of the width, as a part of that of the design before the search;
+/// - `smallest_facet`: the area of the smallest facet as a part of the median area of the facets of its zone;
+/// - `shortest_edge`: the length of the shortest edge as a part of the width, without the upright ones of the girdle;
+/// - `new_findings`: the number of findings of an audit beyond those of the design before the search, kind by kind;
 /// - the ratios of a cutter's sheet ([`SheetFigures`]), all measured on the stone.
-pub const LIMIT_NAMES: [&str; 9] = [
+pub const LIMIT_NAMES: [&str; 12] = [
     "above_critical",
     "yield",
+    SMALLEST_FACET,
+    SHORTEST_EDGE,
+    NEW_FINDINGS,
     "length_to_width",
     "table_to_width",
     "pavilion_to_width",
     "crown_to_width",
-    "girdle_to_width",
+    GIRDLE,
     "height_to_width",
     "volume_to_width_cubed",
 ];
+
+/// The limits that a search keeps by itself; see [`usual_limits`].
+pub(super) const SMALLEST_FACET: &str = "smallest_facet";
+pub(super) const SHORTEST_EDGE: &str = "shortest_edge";
+pub(super) const NEW_FINDINGS: &str = "new_findings";
+pub(super) const GIRDLE: &str = "girdle_to_width";
 
 /// A limit on the geometry.
 pub(super) struct GeometryLimit {
@@ -39,41 +52,57 @@ enum LimitKind {
     Ratio(fn(&SheetFigures) -> f64, f64),
     /// Degrees above this critical angle, degrees.
     AboveCritical(f64),
+    /// One of the smallest parts of the stone, as a part of what it is compared with.
+    Smallest(fn(&SmallestParts) -> f64),
+    /// Findings of an audit beyond these.
+    NewFindings(FindingCounts),
 }
 
 impl GeometryLimit {
-    /// Returns the limits of a goal for a design, which makes `stone`.
-    pub fn all(goal: &Goal, design: &Design, stone: &Stone) -> Result<Vec<Self>, SearchError> {
-        let limit = |name: &String, ends| {
-            let kind = LimitKind::of(name, goal, design, stone)?;
-            Ok(Self { name: name.clone(), kind, ends })
+    /// Returns the limits of a goal for a design, which makes a stone, and then those that a search keeps by itself.
+    pub fn all(goal: &Goal, specimen: &Specimen, stone: &Stone) -> Result<Vec<Self>, SearchError> {
+        let limit = |(name, given): (&String, &AtLeastAtMost)| {
+            let kind = LimitKind::of(name, goal, specimen, stone)?;
+            Ok(Self { name: name.clone(), kind, ends: given.ends() })
         };
-        goal.limit.iter().map(|(name, given)| limit(name, given.ends())).collect()
+        let usual = usual_limits(goal, stone);
+        goal.limit.iter().chain(&usual).map(limit).collect()
     }
 
     /// Returns the value of the limited figure.
-    pub fn value(&self, cut: &Cut, stone: &Stone) -> f64 {
-        match self.kind {
-            LimitKind::Proportion(row) => (row.get)(cut),
+    pub fn value(&self, specimen: &Specimen, stone: &Stone) -> f64 {
+        match &self.kind {
+            LimitKind::Proportion(row) => (row.get)(&specimen.design.cut),
             LimitKind::Ratio(of, unit) => of(&figures(stone)) / unit,
             LimitKind::AboveCritical(critical_deg) => flattest_deg(stone) - critical_deg,
+            LimitKind::Smallest(of) => 0.01 * of(&SmallestParts::of(&stone.polytope)),
+            LimitKind::NewFindings(before) => before.new_in(&audit_of(specimen)) as f64,
         }
+    }
+
+    /// Returns whether the figure changes in steps, so that it has no slope.
+    pub fn is_stepped(&self) -> bool {
+        matches!(self.kind, LimitKind::NewFindings(_))
     }
 }
 
 impl LimitKind {
-    fn of(name: &str, goal: &Goal, design: &Design, stone: &Stone) -> Result<Self, SearchError> {
+    fn of(name: &str, goal: &Goal, specimen: &Specimen, stone: &Stone) -> Result<Self, SearchError> {
+        let design = &specimen.design;
         if let Some(row) = design.cut.proportion(name) {
             return Ok(Self::Proportion(row));
         }
         let ratio: fn(&SheetFigures) -> f64 = match name {
             "above_critical" => return Ok(Self::AboveCritical(critical_deg(goal, design)?)),
+            SMALLEST_FACET => return Ok(Self::Smallest(|parts| parts.facet_percent)),
+            SHORTEST_EDGE => return Ok(Self::Smallest(|parts| parts.edge_percent)),
+            NEW_FINDINGS => return Ok(Self::NewFindings(FindingCounts::of(&audit_of(specimen)))),
             "yield" => |figures| figures.volume_to_width_cubed,
             "length_to_width" => |figures| figures.length_to_width,
             "table_to_width" => |figures| figures.table_to_width,
             "pavilion_to_width" => |figures| figures.pavilion_to_width,
             "crown_to_width" => |figures| figures.crown_to_width,
-            "girdle_to_width" => |figures| figures.girdle_to_width,
+            GIRDLE => |figures| figures.girdle_to_width,
             "height_to_width" => |figures| figures.height_to_width,
             "volume_to_width_cubed" => |figures| figures.volume_to_width_cubed,
             _ => {

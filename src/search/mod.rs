@@ -6,6 +6,7 @@ mod appraisal;
 mod changes;
 mod goal;
 mod kept_corners;
+mod kept_shape;
 mod limits;
 mod local;
 mod numbers;

@@ -20,6 +20,9 @@ const GEOMETRY_STEP: f64 = 1e-4;
 /// The part of a number's range by which it is changed to test whether it keeps all meets.
 const MEET_STEP: f64 = 0.01;
 
+/// The parts of the memory of beams of which one belongs to a view of a design, because each core appraises another one.
+pub(super) const PARTS: usize = 4;
+
 /// A goal for one design.
 pub struct Objective {
     design: Design,
@@ -64,7 +67,7 @@ impl Objective {
         let stone = stone_of(&specimen)?;
         let numbers = VariedNumber::all(goal, &design)?;
         let corners = KeptCorners::of(stone);
-        let limits = GeometryLimit::all(goal, &design, stone)?;
+        let limits = GeometryLimit::all(goal, &specimen, stone)?;
         let (views, terms) = views_and_terms(goal);
         let blank = Appraisal {
             total: Interval::from(0.0, 0.0),
@@ -107,6 +110,12 @@ impl Objective {
     /// Returns the appraisal of the design from before the search.
     pub fn start(&self) -> &Appraisal {
         &self.start
+    }
+
+    /// Returns the least and the greatest value of a limited figure; infinite where there is none.
+    pub fn ends_of(&self, figure: &str) -> (f64, f64) {
+        let limit = self.limits.iter().find(|limit| limit.name == figure);
+        limit.map_or((f64::NEG_INFINITY, f64::INFINITY), |limit| limit.ends)
     }
 
     /// Returns the number of corners that are kept: those where four or more facets meet.
@@ -194,7 +203,7 @@ impl Objective {
         if let Some(facets) = self.corners.broken(stone) {
             return Err(SearchError::Broken(facets.join(", ")));
         }
-        let figure = |limit: &GeometryLimit| (limit.name.clone(), limit.value(&design.cut, stone));
+        let figure = |limit: &GeometryLimit| (limit.name.clone(), limit.value(&specimen, stone));
         Ok(self.limits.iter().map(figure).collect())
     }
 
@@ -280,7 +289,8 @@ impl Objective {
         }
         let changes: Vec<Vec<f64>> = (0..count).map(|k| self.figure_slopes(places, k)).collect();
         for (place, limit) in self.limits.iter().enumerate() {
-            let slope: Vec<f64> = changes.iter().map(|of_number| of_number[place]).collect();
+            let of_number = |of: &Vec<f64>| if limit.is_stepped() { 0.0 } else { of[place] };
+            let slope: Vec<f64> = changes.iter().map(of_number).collect();
             push_slopes(&mut slacks, limit.ends, &slope);
         }
         Slopes { total, slacks }
@@ -411,9 +421,9 @@ fn taken(
         error => SearchError::Sweep(error),
     };
     match changes {
-        None => Ok((sweep.point(0, watch).map_err(stopped)?, vec![])),
+        None => Ok((sweep.point(0, PARTS, watch).map_err(stopped)?, vec![])),
         Some(changes) => {
-            let graded = sweep.graded(changes, &view.names, watch).map_err(stopped)?;
+            let graded = sweep.graded(changes, (&view.names, PARTS), watch).map_err(stopped)?;
             Ok((graded.stone, graded.gradients.into_iter().map(|gradient| gradient.per).collect()))
         }
     }

@@ -2,6 +2,7 @@
 //! one by another.
 
 use super::appraisal::{GoalValue, SearchError};
+use super::objective::PARTS;
 use super::outcome::SearchOutcome;
 use super::run::DesignSearch;
 use crate::cut::{ClassEstimate, CutClass, Design};
@@ -45,7 +46,7 @@ impl OtherMeasure {
                 unresolved: options.unresolved,
                 polarised: options.polarised,
             };
-            sweep.point(0, watch)
+            sweep.point(0, PARTS, watch)
         };
         let (before, after) = (measured(search.objective().design())?, measured(&outcome.design)?);
         let is_weighed = |name: &MeasureName| {

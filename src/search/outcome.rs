@@ -1,7 +1,7 @@
 //! The outcome of a search, and its progress.
 
 use super::appraisal::Appraisal;
-use crate::cut::Design;
+use crate::cut::{Audit, Design, FindingKind};
 
 /// The progress of a search, reported for each appraised design. Threads report in any order, so a report with a
 /// smaller number may follow.
@@ -43,4 +43,15 @@ pub struct SearchOutcome {
     pub appraised: usize,
     /// True where the search was stopped before its end.
     pub was_stopped: bool,
+    /// The audits of the design before the search and of the found design.
+    pub audits: [Audit; 2],
+}
+
+impl SearchOutcome {
+    /// Returns the kinds of findings of the audits, each with its number before and after, without kinds that neither has.
+    pub fn findings(&self) -> Vec<(FindingKind, [usize; 2])> {
+        let count = |kind| self.audits.each_ref().map(|audit| audit.of_kind(kind).count());
+        let counted = FindingKind::ALL.into_iter().map(|kind| (kind, count(kind)));
+        counted.filter(|(_, counts)| *counts != [0, 0]).collect()
+    }
 }

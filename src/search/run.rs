@@ -2,12 +2,14 @@
 
 use super::appraisal::{Appraisal, SearchError};
 use super::goal::Goal;
+use super::kept_shape::audit_of;
 use super::local::{climb, feel};
 use super::numbers::VariedNumber;
 use super::objective::Objective;
 use super::outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 use crate::cut::Design;
-use crate::trace::Watch;
+use crate::scene::Specimen;
+use crate::trace::{Watch, unwatched};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -88,7 +90,7 @@ pub struct SearchOptions {
     /// True where polarisation is followed.
     pub polarised: bool,
     /// The step of angles in degrees, above 0, such as that of a faceting machine's scale. Angles that change end on
-    /// multiples of it where their ranges hold one, unless the search is stopped; the angles of a scaled side do not.
+    /// multiples of it where their ranges hold one, also where the search is stopped; the angles of a scaled side do not.
     /// `None` for any angle.
     pub angle_step_deg: Option<f64>,
 }
@@ -265,7 +267,7 @@ impl DesignSearch {
 
     /// Measures the best finely, unless the search was stopped, in which case its figures stay rough.
     fn outcome(&self, trials: &Trials, watch: Watch) -> Result<SearchOutcome, SearchError> {
-        // A copy, so that the lock is not held while the best is measured on the pool.
+// A copy, so that the lock is not held while the best is measured on the pool.
         let record = trials.record().clone();
         let start = self.objective.start_places();
         let finest = self.options.unresolved / FINER;
@@ -288,14 +290,18 @@ impl DesignSearch {
                 (best, found) = (better, places);
             }
         }
-        let keeps_limits = record.best.is_some();
+        let keeps_limits = record.best.is_some() || self.objective.start().keeps_limits();
         let values = self.objective.numbers().iter().zip(found).map(|(number, &place)| number.at(place));
+        let design = self.objective.design_at(found)?;
+        let audit = |design: &Design| Ok::<_, SearchError>(audit_of(&Specimen::new(design.clone())?));
+        let audits = [audit(self.objective.design())?, audit(&design)?];
         Ok(SearchOutcome {
-            design: self.objective.design_at(found)?,
+            design,
+            audits,
             best,
             keeps_limits,
             values: values.collect(),
-            curve: record.curve.clone(),
+            curve: record.curve,
             appraised: trials.appraised.load(Ordering::Relaxed),
             was_stopped: trials.stopped.load(Ordering::Relaxed),
         })
@@ -330,7 +336,8 @@ impl Trials<'_> {
 
     /// Replaces the best so far by the best design near it whose angles are multiples of a step: its angles are
     /// rounded, and then each is moved by a step either way as long as that is better, but no more than `most`
-    /// designs are appraised. A search that was stopped before leaves the best as it is.
+    /// designs are appraised. A search that was stopped only rounds the angles, and moves them by a step where that breaks a
+    /// limit.
     fn snap(&self, step: f64, most: usize) {
         let objective = &self.search.objective;
         let Some((best, _)) = self.best() else { return };
@@ -344,25 +351,36 @@ impl Trials<'_> {
         };
         let mut found: Option<(Vec<f64>, Appraisal)> = None;
         let mut next = vec![snapped(&best)];
-        let mut left = most;
+        let is_stopped = self.stopped.load(Ordering::Relaxed);
+        let mut left = if is_stopped { 1 + 2 * best.len() } else { most };
+        let appraised = |places: &Vec<f64>| {
+            let found = match is_stopped {
+                true => objective.appraise(places, self.search.options.unresolved, false, &unwatched).ok(),
+                false => self.near(places, false),
+            };
+            Some((places.clone(), found?))
+        };
         while !next.is_empty() && left > 0 {
             next.truncate(left);
             left -= next.len();
-            let tried =
-                next.par_iter().filter_map(|places| Some((places.clone(), self.near(places, false)?)));
-            let tried: Vec<(Vec<f64>, Appraisal)> = tried.collect();
+            let tried: Vec<(Vec<f64>, Appraisal)> = next.par_iter().filter_map(appraised).collect();
             let top = tried.into_iter().max_by(|a, b| merit(&a.1).total_cmp(&merit(&b.1)));
             let Some(top) = top else { break };
             if found.as_ref().is_some_and(|found| merit(&top.1) <= merit(&found.1)) {
                 break;
             }
+            if is_stopped && top.1.keeps_limits() {
+                found = Some(top);
+                break;
+            }
             next = neighbours(objective.numbers(), &top.0, step, &on_scale);
             found = Some(top);
         }
-        // A search that was stopped keeps its best as it is.
-        if found.is_some() || !self.stopped.load(Ordering::Relaxed) {
-            self.record().best = found.filter(|(_, appraisal)| appraisal.keeps_limits());
+        // A search that was stopped while it rounded begins again.
+        if !is_stopped && self.stopped.load(Ordering::Relaxed) {
+            return self.snap(step, most);
         }
+        self.record().best = found.filter(|(_, appraisal)| appraisal.keeps_limits());
     }
 
     fn appraise(&self, places: &[f64], unresolved: f64, with_slopes: bool) -> Option<Appraisal> {

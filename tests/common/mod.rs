@@ -4,6 +4,7 @@ pub mod maps;
 pub mod meshes;
 #[cfg(feature = "gpu")]
 pub mod pixels;
+pub mod scans;
 pub mod shoot;
 pub mod solids;
 

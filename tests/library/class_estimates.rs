@@ -1,7 +1,12 @@
 //! Tests of the class estimated after GIA: against a transcription of its charts, where the machine has one, and
 //! against laws that any such estimate must obey.
 
-use brillianteer::cut::{BrilliantProportions, ClassEstimate, CutClass, PUBLISHED_RANGES};
+use brillianteer::cut::{
+    BrilliantProportions, ClassEstimate, Crown, CutClass, LowerHalf, PUBLISHED_RANGES, Pavilion,
+    RoundBrilliant,
+};
+use brillianteer::measure::{brilliant_proportions, facet_deviations};
+use brillianteer::scene::Stone;
 use proptest::prelude::*;
 
 /// Notes beside the checkout that hold a transcription of GIA's charts. The charts are under copyright, so no copy of them is here.
@@ -142,4 +147,49 @@ fn values_are_rounded_as_reports_round_them_and_a_border_is_told() {
     assert!(class(&charted(57.0, 36.5, 41.8)) > class(&charted(57.0, 33.0, 41.8)));
     assert!(class(&charted(57.0, 36.5, 41.8)) > class(&charted(57.0, 36.0, 40.8)));
     assert_eq!(class(&charted(75.0, 34.5, 40.8)), CutClass::Poor);
+}
+
+/// Returns the designs at the corners of the ranges of GIA's classes: the ends of those of F, or where there are none, one
+/// step beyond those of VG.
+fn corners_of_the_ranges() -> Vec<RoundBrilliant> {
+    let ends = |key: &str| {
+        let range = PUBLISHED_RANGES.iter().find(|range| range.key == key).unwrap();
+        let widest = range.classes.iter().rev().find(|[least, _]| least.is_finite()).unwrap();
+        let beyond = if range.classes[3][0].is_finite() { 0.0 } else { range.step };
+        [widest[0] - beyond, widest[1] + beyond]
+    };
+    let keys =
+        ["table", "crown_angle", "pavilion_angle", "star_length", "lower_half_length", "girdle_thickness"];
+    let corner = |number: usize| {
+        let at = |place: usize| ends(keys[place])[number >> place & 1];
+        RoundBrilliant {
+            table: at(0),
+            crown: Crown::Angle(at(1)),
+            pavilion: Pavilion::Angle(at(2)),
+            star_length: at(3),
+            lower_half: LowerHalf::Radial(at(4)),
+            girdle_thickness: at(5),
+            girdle_facets: 96,
+            culet: 0.0,
+        }
+    };
+    (0..1 << keys.len()).map(corner).collect()
+}
+
+#[test]
+fn every_corner_of_the_published_ranges_has_its_proportions_deviations_and_class() {
+    let mut flattest = f64::INFINITY;
+    for design in corners_of_the_ranges() {
+        let stone = Stone::new(&design.facets().unwrap()).unwrap();
+        let deviations = facet_deviations(&stone).unwrap_or_else(|why| panic!("{design:?}: {why}"));
+        assert!(deviations.iter().all(|class| class.slope_spread_deg < 1e-9), "{design:?}");
+        let (found, given) = (brilliant_proportions(&stone).unwrap(), BrilliantProportions::of(&design));
+        for range in &PUBLISHED_RANGES {
+            let [found, given] = [&found, &given].map(|of| (range.get)(of));
+            assert!((found - given).abs() < 1e-6, "{} {found} {given}: {design:?}", range.key);
+        }
+        assert_eq!(ClassEstimate::after_gia(&found).class, ClassEstimate::after_gia(&given).class);
+        flattest = flattest.min(design.derived().unwrap().star_angle);
+    }
+    assert!(flattest < 2.0, "no corner has flat stars: {flattest}");
 }

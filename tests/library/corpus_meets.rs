@@ -2,8 +2,12 @@
 #![cfg(feature = "interchange")]
 
 use super::corpus::files;
-use brillianteer::cut::{Cut, Meet, MeetFault, MeetPoint, SolvedTiers, TierOutcome, TierZone, Tiers};
-use brillianteer::io::design_file;
+use brillianteer::cut::{
+    Cut, Design, Meet, MeetFault, MeetPoint, SolvedTiers, Tier, TierOutcome, TierZone, Tiers,
+};
+use brillianteer::io::design_file::{self, DesignFormat, written};
+use brillianteer::io::{as_tiers, asc, cut_file, gcs, gem, library};
+use brillianteer::scene::Specimen;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -204,4 +208,84 @@ fn meets_that_designs_state_are_kept_where_they_move_nothing() {
         counts.len()
     );
     assert!(files.is_empty() || (adopted > stated / 2 && all > adopted), "{adopted} of {stated}, {all}");
+}
+
+/// Returns the design with all meets that it states or shows, followed, as `convert --meets` writes it.
+fn followed(design: &Tiers) -> Tiers {
+    let (_, solved) = design.with_stated_meets().with_names_in_meets().with_found_meets_followed();
+    solved.tiers.with_words_of_meets()
+}
+
+/// Returns the first difference between a design whose meets were followed and the same design read back, in words.
+fn read_back(design: &Design, format: DesignFormat) -> Result<(), String> {
+    let Cut::Tiers(tiers) = &design.cut else { return Err("it has no tiers".to_owned()) };
+    let before = followed(tiers);
+    let specimen = Specimen::new(Design { cut: Cut::Tiers(before.clone()), ..design.clone() });
+    let bytes = written(&specimen.map_err(|e| e.to_string())?, format).map_err(|e| e.to_string())?.bytes;
+    let imported = match format {
+        DesignFormat::Asc => asc::read(&bytes, "x.asc"),
+        DesignFormat::Gem => gem::read(&bytes, "x.gem"),
+        _ => gcs::read(&bytes, "x.gcs"),
+    };
+    let Cut::Tiers(again) = imported.map_err(|e| e.to_string())?.design.cut else { panic!("tiers") };
+    let after = followed(&again);
+    let cut: Vec<Tier> =
+        before.tiers.iter().filter(|tier| tier.is_cut && !tier.facets.is_empty()).cloned().collect();
+    if cut.len() != after.tiers.len() {
+        return Err(format!("{} tiers became {}", cut.len(), after.tiers.len()));
+    }
+    for (a, b) in cut.iter().zip(&after.tiers) {
+        let said = |tier: &Tier| tier.meet.as_ref().map_or_else(String::new, Meet::to_string).to_lowercase();
+        if said(a) != said(b) {
+            return Err(format!(
+                "{}: '{}' became '{}', from '{}'",
+                a.name(),
+                said(a),
+                said(b),
+                b.instructions
+            ));
+        }
+    }
+    // Formats have units and origins of their own, so the stones are compared, of which half the diameter is 1.
+    let volume = |tiers: Tiers| {
+        let specimen = Specimen::new(Design { cut: Cut::Tiers(tiers), ..design.clone() });
+        specimen.map(|specimen| specimen.solid().volume()).map_err(|e| e.to_string())
+    };
+    let [a, b] = [volume(before)?, volume(after)?];
+    if (a - b).abs() < COMES_BACK * a { Ok(()) } else { Err(format!("a volume of {a} became {b}")) }
+}
+
+/// Returns the cuts that come with the program as tiers without names, meets and instructions.
+fn nameless_cuts() -> Vec<Design> {
+    let as_nameless = |(name, text): &(&str, &str)| {
+        let specimen = Specimen::new(cut_file::parse(text, name).unwrap()).unwrap();
+        let mut tiers = as_tiers(&specimen)?;
+        for tier in &mut tiers.tiers {
+            tier.rename("");
+            (tier.meet, tier.instructions) = (None, String::new());
+        }
+        Some(Design { cut: Cut::Tiers(tiers), ..specimen.design.clone() })
+    };
+    library::CUTS.iter().filter_map(as_nameless).collect()
+}
+
+#[test]
+fn a_design_that_is_written_with_its_meets_reads_back_as_the_same_design_with_the_same_meets() {
+    let formats = [DesignFormat::Asc, DesignFormat::Gem, DesignFormat::Gcs];
+    let own = nameless_cuts();
+    assert!(own.len() > 25, "{}", own.len());
+    let all = files(&["asc", "gem"]);
+    // Every tenth file; BRILLIANTEER_ALL_FILES takes all.
+    let step = if std::env::var_os("BRILLIANTEER_ALL_FILES").is_some() { 1 } else { 10 };
+    let real = all.iter().step_by(step).filter_map(|file| Some(design_file::read(file).ok()?.design));
+    for (whose, designs, least) in [("own", own, 1.0), ("real", real.collect(), LEAST)] {
+        for format in formats {
+            let results: Vec<(&String, Result<(), String>)> =
+                designs.par_iter().map(|design| (&design.name, read_back(design, format))).collect();
+            let failed: Vec<_> = results.iter().filter(|(_, result)| result.is_err()).collect();
+            println!("{whose} {}: {} of {} differ: {failed:?}", format.ending(), failed.len(), results.len());
+            let share = 1.0 - failed.len() as f64 / results.len().max(1) as f64;
+            assert!(share >= least, "{whose} {}: {failed:#?}", format.ending());
+        }
+    }
 }

@@ -3,7 +3,7 @@
 //! that it fails on in the system's folder for temporary files.
 #![cfg(feature = "interchange")]
 
-use brillianteer::cut::from_mesh::{Up, from_mesh};
+use brillianteer::cut::from_mesh::{Evening, Up, from_mesh};
 use brillianteer::io::design_file::{DesignFormat, written};
 use brillianteer::io::{asc, cut_file, gcs, gem, library, light_file, mesh, scene_file, scope_file};
 use brillianteer::math::TriangleMesh;
@@ -164,9 +164,10 @@ fn cutters_xml() {
 /// Reads a mesh, mends it and finds its facets.
 fn mesh(bytes: &[u8]) {
     let Ok(file) = mesh::parse(bytes.to_vec(), "x", None) else { return };
-    let Ok(mended) = file.surface.mend() else { return };
+    let Ok((mended, _)) = file.surface.mend_closed() else { return };
+    mended.parts.iter().for_each(|part| drop(mended.part(part)));
     match facets(mended.surface) {
-        SurfaceKind::Convex(found) => drop(from_mesh(&found, Up::Found)),
+        SurfaceKind::Convex(found) => drop(from_mesh(&found, Up::Found, Evening::default())),
         SurfaceKind::Concave(surface) => drop(TriangleMesh::new(surface)),
     }
 }

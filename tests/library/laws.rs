@@ -2,7 +2,9 @@
 
 use crate::common::*;
 use brillianteer::math::{Plane, Polytope};
-use brillianteer::measure::{by_beams, by_rays};
+use brillianteer::measure::{
+    LightMeasures, MeasureName, MeasureSettings, PatternSettings, by_beams, by_rays,
+};
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{Film, Glare, Lean, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
@@ -212,6 +214,55 @@ fn a_stone_that_catches_light_stops_at_the_most_beams_and_says_what_is_left() {
     assert!((50_000..250_000).contains(&beams.len()), "{} beams", beams.len());
     let figures = by_beams(&beams, &aset());
     assert!(figures.unresolved > 1e-6 && (figures.sum() - 1.0).abs() < 1e-9, "{figures:?}");
+}
+
+#[test]
+fn a_stone_that_catches_light_stops_at_the_memory_that_beams_may_take_and_every_interval_holds_what_is_left()
+{
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
+    for index in [3.5, 5.0] {
+        for view in [View::default(), View { tilt: 0.3, azimuth: 0.1, ..View::default() }] {
+            let traced = |most_bytes| {
+                let options =
+                    beam::BeamOptions { unresolved: 1e-9, most_bytes, ..beam::BeamOptions::default() };
+                beam::trace(&stone.polytope, Medium::clear(index), &view, &options, &unwatched).unwrap()
+            };
+            let settings = MeasureSettings::usual([index, index + 0.1]);
+            let settings = MeasureSettings { pattern: Some(PatternSettings::usual(3.25)), ..settings };
+            let measured = |beams: &beam::Beams| {
+                assert!(beams.is_cut_short && beams.unresolved() > 1e-9, "{}", beams.unresolved());
+                LightMeasures::of(beams, &stone.polytope, &settings)
+            };
+            let (few, more) = (traced(8 << 20), traced(24 << 20));
+            // The limit is looked at after some thousand fronts.
+            assert!((1 << 20..24 << 20).contains(&few.bytes()), "{} bytes", few.bytes());
+            let (wide, narrow) = (measured(&few), measured(&more));
+            let said = wide.cut_short(MeasureName::all(&settings)).expect("the end is explained");
+            assert!(said.contains(&format!("{:.3} % of it was left", 100.0 * wide.unresolved)), "{said}");
+            for name in MeasureName::all(&settings) {
+                let (Some(wide), Some(narrow)) = (name.of(&wide), name.of(&narrow)) else { continue };
+                let holds = narrow.least >= wide.least - 1e-9 && narrow.most <= wide.most + 1e-9;
+                assert!(holds, "{name}: {narrow:?} is not within {wide:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn beams_within_a_memory_do_not_depend_on_the_number_of_cores() {
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
+    let taken = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let options =
+            beam::BeamOptions { unresolved: 1e-9, most_bytes: 3 << 20, ..beam::BeamOptions::default() };
+        let view = View { tilt: 0.2, ..View::default() };
+        pool.install(|| {
+            let beams =
+                beam::trace(&stone.polytope, Medium::clear(4.5), &view, &options, &unwatched).unwrap();
+            (beams.len(), beams.unresolved(), beams.iter().map(|beam| beam.area).sum::<f64>())
+        })
+    };
+    assert_eq!(taken(1), taken(3));
 }
 
 #[test]

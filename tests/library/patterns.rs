@@ -12,7 +12,7 @@ use brillianteer::optics::{line, material};
 use brillianteer::scene::{Medium, View, elevation_deg};
 use brillianteer::trace::beam::{BeamOptions, Beams, trace};
 use brillianteer::trace::ray::{Camera, RayOptions, StoneTracer};
-use brillianteer::trace::unwatched;
+use brillianteer::trace::{Stopped, unwatched};
 use glam::{DVec2, DVec3};
 
 const DIAMOND: f64 = 2.4175;
@@ -257,7 +257,8 @@ fn scintillation(
     let rocked: Vec<Beams> =
         rocked_views(&view, rock_deg).iter().map(|view| traced(stone, index, view, unresolved)).collect();
     let beams = traced(stone, index, &view, unresolved / 10.0);
-    Scintillation::of(&beams, &rocked, head_deg, &PatternSettings::usual(3.25))
+    let rocked = rocked.into_iter().map(Ok::<_, Stopped>);
+    Scintillation::of(&beams, rocked, head_deg, &PatternSettings::usual(3.25)).unwrap()
 }
 
 #[test]

@@ -30,6 +30,7 @@ pub(super) struct Shoot {
     pub(super) bands: u32,
     pub(super) places: u32,
     pub(super) both_sides: bool,
+    pub(super) strength: f64,
 }
 
 pub(super) fn boxed(low: DVec3, high: DVec3) -> Polytope {
@@ -75,6 +76,7 @@ impl Shoot {
             bands: 1,
             places: 1,
             both_sides: false,
+            strength: 1.0,
         }
     }
 
@@ -116,7 +118,8 @@ impl Shoot {
 
     pub(super) fn map(&self) -> (RefractionMap, Carried) {
         let bands = Strata::of_middles(self.bands, &Illuminant::D65, true);
-        let survey = Survey { bands: &bands, places: self.places, shades: &bands, passes: 1 };
+        let survey =
+            Survey { bands: &bands, places: self.places, shades: &bands, passes: 1, strength: self.strength };
         self.with_lit_scene(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
     }
 
@@ -174,8 +177,12 @@ fn a_tilted_slab_shifts_what_is_behind_as_snell_says() {
     let slab = boxed(DVec3::new(-9.0, -9.0, -thickness / 2.0), DVec3::new(9.0, 9.0, thickness / 2.0));
     let mut shoot = Shoot::of(slab, glass(index));
     shoot.view = View { tilt, lean: Lean::Eye, ..View::default() };
+    shoot.strength = 0.4;
+    let (mixed, _) = shoot.map();
+    shoot.strength = 1.0;
     let (map, carried) = shoot.map();
-    // Parallel rays are shifted by d sin i (1 - cos i / (n cos t)), against the side that the eye has moved to.
+    // Parallel rays are shifted by d sin i (1 - cos i / (n cos t)), against the side that the eye has moved to. Of a mixture with
+    // the straight ray, they are shifted by the strength times that.
     let (sin, cos) = tilt.sin_cos();
     let cos_t = (1.0 - (sin / index).powi(2)).sqrt();
     let shift = thickness * sin * (1.0 - cos / (index * cos_t));
@@ -184,8 +191,10 @@ fn a_tilted_slab_shifts_what_is_behind_as_snell_says() {
     let along = along / along.length();
     let plane = shoot.plane();
     let mut worst = 0.0_f64;
-    for (k, place) in map.bands[0].places.iter().enumerate() {
-        let (x, y) = (k % 96, k / 96);
+    let places = |map: &RefractionMap| map.bands[0].places.clone().into_iter().enumerate();
+    let all = places(&map).map(|found| (found, 1.0)).chain(places(&mixed).map(|found| (found, 0.4)));
+    for ((k, place), strength) in all {
+        let (x, y, shift) = (k % 96, k / 96, shift * strength);
         let at = shoot.film().image_from_pixels(DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
         let expected = (at - along * shift) * DVec2::new(1.0, -1.0) / plane.size + 0.5;
         let other = (at + along * shift) * DVec2::new(1.0, -1.0) / plane.size + 0.5;
@@ -308,7 +317,7 @@ fn a_map_is_the_same_every_time_and_can_be_stopped() {
     let shoot = Shoot::of(brilliant(), diamond());
     assert_eq!(shoot.map(), shoot.map());
     let bands = Strata::new(1, 1, &Illuminant::D65, true);
-    let survey = Survey { bands: &bands, places: 1, shades: &bands, passes: 1 };
+    let survey = Survey { bands: &bands, places: 1, shades: &bands, passes: 1, strength: 1.0 };
     let stop = |part: f64| if part > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     let stopped = shoot.with_lit_scene(None, |s| RefractionMap::trace(s, &shoot.plane(), &survey, &stop));
     assert_eq!(stopped.err(), Some(Stopped));

@@ -2,15 +2,17 @@
 #![cfg(feature = "interchange")]
 
 use super::corpus::files;
-use brillianteer::cut::{Cut, Design, MaterialRef};
+use brillianteer::cut::{Cut, Design, FindingKind, MaterialRef, SMALL_FACET, SheetFigures, SmallestParts};
 use brillianteer::io::{as_tiers, cut_file, design_file, library};
 use brillianteer::measure::MeasureSettings;
 use brillianteer::optics::line;
 use brillianteer::render::{Sweep, SweepAxis, SweepKey, SweepValue, SweptStone, with_numbers};
 use brillianteer::scene::{Specimen, Viewpoint};
-use brillianteer::search::{DesignSearch, Goal, GoalMeasure, SearchOptions, VariedNumber};
+use brillianteer::search::{DesignSearch, Goal, GoalMeasure, SearchOptions, SearchProgress, VariedNumber};
 use brillianteer::trace::{Stopped, unwatched};
+use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Real designs, where they are there.
@@ -82,6 +84,76 @@ fn tiers_are_better_after_a_search_and_keep_every_meet() {
 }
 
 #[test]
+fn a_search_spoils_no_design_though_its_goal_does_not_say_so() {
+    let rough = SearchOptions {
+        unresolved: 0.03,
+        scattered: Some(16),
+        climbs: 1,
+        polarised: false,
+        ..SearchOptions::default()
+    };
+    for name in ["single-cut", "hexagon", "trillion"] {
+        let design = tiers(name);
+        let mut goal = Goal::of([("return-cos2".parse().unwrap(), 1.0)]);
+        // Ranges that are wide enough to lose a crown.
+        let wide = |number: VariedNumber| {
+            let (least, most) = (0.4 * number.start, 2.0 * number.start);
+            (number.key.to_string(), [least, most.min(if number.start > 89.0 { most } else { 88.0 })])
+        };
+        goal.vary = VariedNumber::usual(&design.cut).into_iter().map(wide).collect();
+        let search = DesignSearch::new(&design, &goal, rough, &unwatched).unwrap();
+        let outcome = search.run(&unwatched, &|_| {}).unwrap();
+        assert!(outcome.keeps_limits, "{name}");
+        for (kind, [before, after]) in outcome.findings() {
+            assert!(after <= before, "{name}: {kind}: {before} before, {after} after");
+        }
+        let [before, after] = [search.objective().design(), &outcome.design].map(|design| {
+            let specimen = Specimen::new(design.clone()).unwrap();
+            let stone = specimen.stone().unwrap();
+            let girdle = SheetFigures::of(&stone.polytope, stone.names()).girdle_to_width;
+            (SmallestParts::of(&stone.polytope), girdle)
+        });
+        println!("{name}: {before:?}, then {after:?}, {}", outcome.best.total.middle());
+        let least = SMALL_FACET.min(0.9 * before.0.facet_percent);
+        assert!(after.0.facet_percent >= least - 1e-6, "{name}: {before:?}, {after:?}");
+        assert!((after.1 - before.1).abs() <= 0.005 + 1e-9, "{name}: {before:?}, {after:?}");
+        // The audit is part of the result.
+        let own = Specimen::new(outcome.design.clone()).unwrap().audit().unwrap();
+        assert_eq!(own, outcome.audits[1], "{name}");
+        let small = outcome.audits[1].of_kind(FindingKind::SmallFacet).count();
+        assert!(small <= outcome.audits[0].of_kind(FindingKind::SmallFacet).count(), "{name}");
+    }
+}
+
+#[test]
+fn angles_end_on_their_scale_also_when_a_search_is_stopped() {
+    let is_enough = AtomicBool::new(false);
+    let watch = |_: f64| match is_enough.load(Ordering::Relaxed) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let options = SearchOptions {
+        unresolved: 0.02,
+        polarised: false,
+        angle_step_deg: Some(0.5),
+        ..SearchOptions::default()
+    };
+    // So steep a stone is soon improved.
+    let design = brilliant(39.0, 42.7);
+    let search = DesignSearch::new(&design, &goal(&[("return-cos2", 1.0)]), options, &unwatched).unwrap();
+    let start = search.objective().start().total.middle();
+    let report = |progress: &SearchProgress| {
+        let is_better = progress.best_total.is_some_and(|best| best > start + 0.01);
+        is_enough.fetch_or(is_better && progress.appraised > 20, Ordering::Relaxed);
+    };
+    let outcome = search.run(&watch, &report).unwrap();
+    assert!(outcome.was_stopped && outcome.best.total.middle() > start, "{outcome:?}");
+    for value in &outcome.values {
+        assert!((value / 0.5 - (value / 0.5).round()).abs() < 1e-6, "{:?}", outcome.values);
+    }
+}
+
+#[test]
 fn a_corner_that_opens_is_counted() {
     let mut design = tiers("tolkowsky");
     let before = counts(&design);
@@ -141,7 +213,7 @@ fn map_best(goal: &Goal, steps: usize, unresolved: f64) -> (f64, f64) {
     let seconds = begun.elapsed().as_secs_f64();
     totals.sort_by(|a, b| b.0.total_cmp(&a.0));
     sweep.unresolved *= 0.25;
-    let finely = totals.iter().take(40).map(|(_, point)| total(&sweep.point(*point, &unwatched).unwrap()));
+    let finely = totals.iter().take(40).map(|(_, point)| total(&sweep.point(*point, 1, &unwatched).unwrap()));
     (finely.fold(f64::NEG_INFINITY, f64::max), seconds)
 }
 

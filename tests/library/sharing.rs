@@ -124,3 +124,43 @@ fn estimated_light_of_a_stone_that_absorbs_has_the_colour_of_that_of_beams() {
         assert!(off < 0.01, "{material}: {estimated} instead of {exact}");
     }
 }
+
+#[test]
+fn shared_beams_have_the_colours_of_wavelengths_alone() {
+    // Face up and with all its symmetry a stone needs so few beams that next to no light is left, which only shared beams
+    // estimate.
+    for (stone, material) in
+        [(modern(), "diamond"), (modern(), "strontium titanate"), (family("emerald"), "diamond")]
+    {
+        let mut shoot = shoot(stone, material, "lamps");
+        shoot.view = View::default();
+        (shoot.wavelengths, shoot.samples, shoot.shares) = (11, 1, 1);
+        let sum = |is_apart: bool| {
+            let options = BeamOptions { unresolved: 5e-5, ..BeamOptions::default() };
+            let (picture, rest) = shoot.by_beams_of(options, is_apart);
+            assert!(rest.unresolved < 1e-4, "{material}: {rest:?}");
+            picture.pixels.iter().map(colour).sum::<DVec3>()
+        };
+        let off = sum(false) / sum(true) - 1.0;
+        println!("{material}: {off}");
+        assert!(off.abs().max_element() < 3e-4, "{material}: red, green and blue are off by {off}");
+    }
+}
+
+#[test]
+fn shared_beams_are_white_in_white_light() {
+    // A clear stone vanishes in even light, whatever its reflectances are. A weight that belongs to another wavelength shows as a
+    // colour of the whole picture.
+    for (material, tilt) in [("diamond", 0.17), ("strontium titanate", 0.0)] {
+        let mut shoot = shoot(modern(), material, "studio");
+        shoot.light = Light { head: 0.0, ..Light::white() };
+        (shoot.view.tilt, shoot.backdrop) = (tilt, true);
+        (shoot.wavelengths, shoot.samples, shoot.shares) = (21, 1, 1);
+        let options = BeamOptions { unresolved: 2e-3, ..BeamOptions::default() };
+        let (picture, rest) = shoot.by_beams_of(options, false);
+        let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
+        let off = mean - 1.0;
+        println!("{material}: {off}, {rest:?}");
+        assert!(off.abs().max_element() < 3e-4, "{material}: red, green and blue are off by {off}");
+    }
+}

@@ -2,7 +2,7 @@
 //! The designs are not part of the project; where they are missing the test says so and passes.
 #![cfg(feature = "interchange")]
 
-use brillianteer::cut::Cut;
+use brillianteer::cut::{Cut, Tiers};
 use brillianteer::io::cutting_sheet::cutting_sheet;
 use brillianteer::io::design_file;
 use brillianteer::picture::{BlockKind, CuttingSheet, PaperSize, SheetRow, sheet_pages};
@@ -66,22 +66,24 @@ fn text_tier(record: &str) -> TextTier {
 }
 
 /// Returns the row that a sheet must have for a tier of a file, in words: name, angle, indices, instruction. The
-/// sheet chooses the name of a tier without one, and gives the depth of a tier without an instruction in widths of
+/// sheet chooses the name of a tier without one. A tier without an instruction gets a meet, or its depth in widths of
 /// the stone.
-fn expected(gear: f64, tier: &TextTier, chosen: &str, width: f64) -> String {
+fn expected(gear: f64, tier: &TextTier, row: &SheetRow, width: f64) -> String {
     let flat = tier.angle == 0.0;
     let mut indices: Vec<f64> = if flat { vec![] } else { tier.indices.clone() };
     indices.sort_by(|a, b| (a % gear).total_cmp(&(b % gear)));
     let text = |index: &f64| if *index == 0.0 { gear } else { *index }.to_string();
     let indices: Vec<String> = indices.iter().map(text).collect();
     let depth = format!("{:.4} W", tier.distance.abs() / width);
+    let is_met = !row.instruction.contains("epth");
     let said = match (tier.instruction.as_str(), flat, tier.angle.is_sign_negative()) {
+        ("", ..) if is_met => row.instruction.clone(),
         ("", true, false) => format!("Table, depth {depth}"),
         ("", true, true) => format!("Culet, depth {depth}"),
         ("", ..) => format!("Depth {depth}"),
         (said, ..) => said.to_owned(),
     };
-    let name = if tier.name.is_empty() { chosen } else { &tier.name };
+    let name = if tier.name.is_empty() { &row.name } else { &tier.name };
     format!("{name} {:.2} {} {said}", tier.angle.abs(), indices.join("-"))
 }
 
@@ -94,7 +96,7 @@ fn sheets_of_real_designs_say_what_their_files_say() {
     if !Path::new(LIBRARY).is_dir() {
         return println!("SKIPPED: {LIBRARY} is not there, so no sheet is compared with a real file");
     }
-    let mut compared = 0;
+    let (mut compared, mut met) = (0, 0);
     for name in DESIGNS {
         let path = Path::new(LIBRARY).join(format!("{name}.ASC"));
         let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
@@ -114,21 +116,41 @@ fn sheets_of_real_designs_say_what_their_files_say() {
             assert!(block.tiers.is_sorted_by_key(|row| row.tier), "{name}: not in cutting order");
             for row in &block.tiers {
                 let tier = &tiers[row.tier];
-                assert_eq!(line(row), expected(gear, tier, &row.name, width), "{name}");
+                assert_eq!(line(row), expected(gear, tier, row, width), "{name}");
                 let is_crown = tier.angle.is_sign_positive() && tier.angle < 90.0;
                 assert_eq!(block.name == BlockKind::Crown, is_crown, "{name}: {tier:?}");
                 assert!(seen.insert(row.tier), "{name}: {tier:?} stands on the sheet twice");
                 // A number that is off by a digit would be seen.
                 let off = TextTier { angle: tier.angle + 0.01, ..tier.clone() };
-                assert_ne!(line(row), expected(gear, &off, &row.name, width));
+                assert_ne!(line(row), expected(gear, &off, row, width));
             }
         }
+        met += meets_of_rows_hold(own, &sheet, &tiers, name);
         assert_eq!(seen.len(), tiers.len(), "{name}: tiers are missing");
         assert!(!sheet_pages(&sheet, PaperSize::A4).is_empty());
         compared += tiers.len();
     }
-    println!("{} designs, {compared} tiers agree", DESIGNS.len());
-    assert!(compared > 100);
+    println!("{} designs, {compared} tiers agree, {met} of them by a meet that was found", DESIGNS.len());
+    assert!(compared > 100 && met > 10);
+}
+
+/// Checks that each meet on a sheet, for a tier whose file has no instruction, gives the tier the distance that it has. Returns
+/// the number of such meets.
+fn meets_of_rows_hold(own: &Tiers, sheet: &CuttingSheet, tiers: &[TextTier], name: &str) -> usize {
+    let mut read = own.clone().with_names();
+    let rows = sheet.blocks.iter().flat_map(|block| &block.tiers);
+    let found: Vec<&SheetRow> = rows.filter(|row| tiers[row.tier].instruction.is_empty()).collect();
+    for row in &found {
+        read.tiers[row.tier].meet = read.meet_in_words(row.tier, &row.instruction);
+    }
+    let checked = read.checked_meets();
+    let met = found.iter().filter(|row| read.tiers[row.tier].meet.is_some());
+    let holds = |row: &&&SheetRow| {
+        let [before, after] = [own, &checked.tiers].map(|tiers| tiers.tiers[row.tier].distance.abs());
+        assert!((before - after).abs() < 1e-4 * before.max(1.0), "{name}: {row:?}: {before} {after}");
+        true
+    };
+    met.filter(holds).count()
 }
 
 /// A design of the library with a ratio that its file prints, and the unit of the last digit printed.

@@ -22,8 +22,8 @@ struct Screen {
 struct Pixels(u32, u32, Vec<u8>);
 
 impl Screen {
-    /// Opens a screen; returns `None` where Xvfb or xdotool is missing, and fails where they are required.
-    fn open(test: &str) -> Option<Self> {
+    /// Opens a screen of this size; returns `None` where Xvfb or xdotool is missing, and fails where they are required.
+    fn open(test: &str, size: [u32; 2]) -> Option<Self> {
         let is_there = |name: &str| {
             Command::new(name).arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
         };
@@ -38,18 +38,9 @@ impl Screen {
         let folder = tempfile::tempdir().unwrap();
         // Without -noreset the server starts anew whenever its last client leaves, and refuses connections meanwhile: each
         // call of xdotool could shut out the program.
+        let screen = format!("{}x{}x24", size[0], size[1]);
         let mut server = Command::new("Xvfb")
-            .args([
-                "-displayfd",
-                "1",
-                "-screen",
-                "0",
-                "1480x940x24",
-                "-noreset",
-                "-nolisten",
-                "tcp",
-                "-fbdir",
-            ])
+            .args(["-displayfd", "1", "-screen", "0", &screen, "-noreset", "-nolisten", "tcp", "-fbdir"])
             .arg(folder.path())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -61,9 +52,15 @@ impl Screen {
         Some(Self { server, display: format!(":{}", number.trim()), folder })
     }
 
-    /// Starts the program; returns it with the picture of the screen once the window is at rest with this arrangement of
-    /// views.
-    fn start(&self, home: &Path, layout: &str) -> (Child, Pixels) {
+    /// Starts the program with so many threads; returns it with the picture of the screen once the window is at rest with
+    /// this arrangement of views.
+    fn start(&self, home: &Path, layout: &str, threads: &str) -> (Child, Pixels) {
+        let program = self.begin(home, &[("RAYON_NUM_THREADS", threads)]);
+        (program, self.at_rest(layout))
+    }
+
+    /// Starts the program with these variables, and waits until its window is there.
+    fn begin(&self, home: &Path, variables: &[(&str, &str)]) -> Child {
         // The file may be from an earlier window.
         let _ = std::fs::remove_file(self.state_file());
         let messages = self.folder.path().join("messages");
@@ -72,6 +69,7 @@ impl Screen {
             .current_dir(self.folder.path())
             .stderr(std::fs::File::create(&messages).unwrap())
             .env("DISPLAY", &self.display)
+            .envs(variables.iter().copied())
             .env("XDG_DATA_HOME", home)
             .env("XDG_RUNTIME_DIR", home)
             .env("BRILLIANTEER_STATE_FILE", self.state_file())
@@ -85,7 +83,7 @@ impl Screen {
             }
             !self.xdotool(&["search", "--name", "Brillianteer"]).trim().is_empty()
         });
-        (program, self.at_rest(layout))
+        program
     }
 
     /// Runs xdotool and returns what it prints.
@@ -182,9 +180,9 @@ fn exit_code(program: &mut Child, screen: &Screen) -> Option<i32> {
 
 #[test]
 fn the_program_opens_its_window_ends_cleanly_and_comes_back_as_it_was_left() {
-    let Some(screen) = Screen::open("the_program_opens_its_window") else { return };
+    let Some(screen) = Screen::open("the_program_opens_its_window", [1480, 940]) else { return };
     let home = tempfile::tempdir().unwrap();
-    let (mut program, four) = screen.start(home.path(), "Four");
+    let (mut program, four) = screen.start(home.path(), "Four", "16");
     four.save("window.png");
     assert!(four.colours() > 2000, "only {} colours: no stone is in sight", four.colours());
     screen.press("2");
@@ -192,10 +190,31 @@ fn the_program_opens_its_window_ends_cleanly_and_comes_back_as_it_was_left() {
     assert!(two.changed(&four) > 0.1, "two views look like four");
     screen.press("ctrl+q");
     assert_eq!(exit_code(&mut program, &screen), Some(0));
-    let (mut again, restored) = screen.start(home.path(), "Two");
+    let (mut again, restored) = screen.start(home.path(), "Two", "32");
     restored.save("window-again.png");
     let off = restored.changed(&two);
     assert!(off < 0.01, "{:.1} % of the window is another after a new start", 100.0 * off);
     screen.press("ctrl+q");
     assert_eq!(exit_code(&mut again, &screen), Some(0));
+}
+
+#[test]
+fn the_window_fits_a_small_screen_of_large_points() {
+    let Some(screen) = Screen::open("the_window_fits_a_small_screen", [1280, 720]) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut program = screen.begin(home.path(), &[("WINIT_X11_SCALE_FACTOR", "1.5")]);
+    let geometry = || {
+        screen.xdotool(&["search", "--onlyvisible", "--name", "Brillianteer", "getwindowgeometry", "--shell"])
+    };
+    screen.until("a window in sight", || geometry().contains("HEIGHT"));
+    let text = geometry();
+    let number = |key: &str| {
+        let line = text.lines().find_map(|line| line.strip_prefix(&format!("{key}=")));
+        line.unwrap_or_else(|| panic!("{text}")).parse::<i32>().unwrap()
+    };
+    let [x, y, width, height] = ["X", "Y", "WIDTH", "HEIGHT"].map(number);
+    assert!(x >= 0 && y >= 0 && x + width <= 1280 && y + height <= 720, "{text}");
+    assert!(width >= 1200 && height >= 600, "{text}");
+    screen.press("ctrl+q");
+    assert_eq!(exit_code(&mut program, &screen), Some(0));
 }

@@ -1,9 +1,10 @@
 //! The About dialog: the program's version, its licences, and the crates it is built of.
 
-use super::answers::{answer, buttons};
+use super::answers::{answer, body, buttons};
 use crate::app::icon::icon;
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::dialog::{AboutForm, AboutPage};
+use crate::app::scrolled::follow_focus;
 use egui::{
     ColorImage, Grid, Id, Label, RichText, ScrollArea, TextEdit, TextureHandle, TextureOptions, Ui, vec2,
 };
@@ -42,29 +43,26 @@ pub fn crates() -> impl Iterator<Item = Crate<'static>> {
 
 /// Draws the dialog.
 pub fn show(about: &AboutForm, actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(560.0_f32.min(ui.ctx().content_rect().width() - 60.0));
-    head(actions, ui);
-    ui.separator();
-    let mut page = about.page;
-    ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(&mut page, AboutPage::Crates, "Built with");
-        for (k, (name, _)) in LICENCES.iter().enumerate() {
-            ui.selectable_value(&mut page, AboutPage::Licence(k), format!("Licence {name}"));
+    body(ui, 560.0, |ui| {
+        head(actions, ui);
+        ui.separator();
+        let mut page = about.page;
+        ui.horizontal_wrapped(|ui| {
+            ui.selectable_value(&mut page, AboutPage::Crates, "Built with");
+            for (k, (name, _)) in LICENCES.iter().enumerate() {
+                ui.selectable_value(&mut page, AboutPage::Licence(k), format!("Licence {name}"));
+            }
+        });
+        actions.push_changed(&about.page, page, DialogAction::AboutPage);
+        let height = (ui.ctx().content_rect().height() - 300.0).clamp(120.0, LIST);
+        match about.page {
+            AboutPage::Crates => list(actions, ui, &about.sought, height),
+            AboutPage::Licence(k) => {
+                let area = ScrollArea::vertical().id_salt(("licence", k)).max_height(height);
+                area.auto_shrink(false).show(ui, |ui| ui.label(RichText::new(LICENCES[k].1).small()));
+            }
         }
     });
-    actions.push_changed(&about.page, page, DialogAction::AboutPage);
-    let height = (ui.ctx().content_rect().height() - 300.0).clamp(120.0, LIST);
-    match about.page {
-        AboutPage::Crates => list(actions, ui, &about.sought, height),
-        AboutPage::Licence(k) => {
-            ScrollArea::vertical().id_salt(("licence", k)).max_height(height).auto_shrink(false).show(
-                ui,
-                |ui| {
-                    ui.label(RichText::new(LICENCES[k].1).small());
-                },
-            );
-        }
-    }
     answer(actions, [DialogAction::Leave], buttons(ui, &["Close"]));
 }
 
@@ -123,6 +121,7 @@ fn list(actions: &mut Actions, ui: &mut Ui, sought: &str, height: f32) {
                 ui.end_row();
             }
         });
+        follow_focus(ui);
     });
 }
 
@@ -145,7 +144,8 @@ mod tests {
     fn gather(shape: &Shape, rectangles: &mut Vec<Rect>, rules: &mut Vec<Rect>) {
         match shape {
             Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather(shape, rectangles, rules)),
-            Shape::Rect(rectangle) => rectangles.push(rectangle.rect),
+            // A blurred rectangle is a shadow.
+            Shape::Rect(rectangle) if rectangle.blur_width == 0.0 => rectangles.push(rectangle.rect),
             Shape::LineSegment { points: [a, b], .. } if a.y == b.y => {
                 rules.push(Rect::from_two_pos(*a, *b));
             }

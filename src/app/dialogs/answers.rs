@@ -1,7 +1,36 @@
-//! The buttons of dialogs, and the answers that they give.
+//! The frame of dialogs: their contents, which scroll where the window is low, and below them the buttons, which are
+//! always in sight, with the answers that they give.
 
 use crate::app::model::action::{Actions, DialogAction};
+use crate::app::scrolled::scrolled;
 use egui::{Key, Ui};
+
+/// The space that dialogs leave free above and below, their own margins included, points.
+const AROUND_DIALOG: f32 = 48.0;
+
+/// The space that dialogs leave free to the left and the right, their own margins included, points.
+const BESIDE_DIALOG: f32 = 60.0;
+
+/// The height of the buttons below the contents of a dialog, with the space above them, points.
+const BUTTONS: f32 = 42.0;
+
+/// The height of the contents of a dialog in a window that has room for all of them, points.
+const ANY: f32 = f32::INFINITY;
+
+/// Draws the contents of a dialog of this width, points, above its buttons.
+pub fn body<R>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    body_of(ui, width, ANY, contents)
+}
+
+/// Draws the contents of a dialog above its buttons; they scroll where they are higher than `height` points or than
+/// the window.
+pub fn body_of<R>(ui: &mut Ui, width: f32, height: f32, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    let window = ui.ctx().content_rect().size();
+    ui.set_width(width.min(window.x - BESIDE_DIALOG));
+    let room = window.y - AROUND_DIALOG;
+    ui.set_max_height(room);
+    scrolled(ui, "dialog", height.min(room - BUTTONS), contents)
+}
 
 /// Draws buttons in a row and returns the number of the chosen one.
 ///

@@ -1,6 +1,6 @@
 //! The dialog that asks for a file by its path, where the system has no file dialog.
 
-use super::answers::buttons_alone;
+use super::answers::{body, buttons_alone};
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::choosing::Purpose;
 use crate::app::model::dialog::PathForm;
@@ -18,7 +18,17 @@ fn verb(purpose: Purpose) -> &'static str {
 
 /// Draws the dialog.
 pub fn show(actions: &mut Actions, ui: &mut Ui, form: &PathForm) {
-    ui.set_width(460.0);
+    let is_entered = body(ui, 460.0, |ui| contents(actions, ui, form));
+    match buttons_alone(ui, &[verb(form.purpose), "Cancel"]) {
+        None if is_entered && form.is_typed => actions.push(DialogAction::Accept),
+        Some(0) => actions.push(DialogAction::Accept),
+        Some(_) => actions.push(DialogAction::Leave),
+        None => {}
+    }
+}
+
+/// Draws the field of the path and what is wrong with the path; returns whether the path was entered.
+fn contents(actions: &mut Actions, ui: &mut Ui, form: &PathForm) -> bool {
     ui.heading(form.purpose.heading());
     let why = "The system could not open a file dialog. It needs a desktop portal such as xdg-desktop-portal. Type \
         the path instead.";
@@ -39,10 +49,5 @@ pub fn show(actions: &mut Actions, ui: &mut Ui, form: &PathForm) {
     } else if !form.purpose.is_new() && !path.exists() {
         ui.label(RichText::new("This file does not exist.").weak());
     }
-    match buttons_alone(ui, &[verb(form.purpose), "Cancel"]) {
-        None if is_entered && form.is_typed => actions.push(DialogAction::Accept),
-        Some(0) => actions.push(DialogAction::Accept),
-        Some(_) => actions.push(DialogAction::Leave),
-        None => {}
-    }
+    is_entered
 }

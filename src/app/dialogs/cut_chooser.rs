@@ -1,6 +1,6 @@
 //! The chooser of cuts: begins a design from a cut that comes with the program.
 
-use super::answers::{answer, buttons_alone};
+use super::answers::{answer, body, buttons_alone};
 use crate::app::library_cuts::{LibraryCut, library_cuts};
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::dialog::Then;
@@ -16,7 +16,12 @@ const CARD: f32 = 120.0;
 
 /// Draws the dialog.
 pub fn show(actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(776.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+    body(ui, 784.0, |ui| groups(actions, ui));
+    answer(actions, [DialogAction::Leave], buttons_alone(ui, &["Cancel"]));
+}
+
+/// Draws the cuts, group by group.
+fn groups(actions: &mut Actions, ui: &mut Ui) {
     ui.heading("New from a cut");
     let cuts = library_cuts();
     for (group, (name, _)) in GROUPS.iter().enumerate() {
@@ -35,7 +40,6 @@ pub fn show(actions: &mut Actions, ui: &mut Ui) {
             }
         });
     }
-    answer(actions, [DialogAction::Leave], buttons_alone(ui, &["Cancel"]));
 }
 
 /// Draws a cut with its name; returns whether it was chosen.
@@ -45,9 +49,6 @@ fn card(ui: &mut Ui, cut: &LibraryCut) -> bool {
     if ui.memory(|memory| memory.focused().is_none()) {
         // The first cut takes the focus, from which the keys go on.
         response.request_focus();
-    }
-    if response.gained_focus() {
-        response.scroll_to_me(None);
     }
     let visuals = ui.style().interact(&response);
     ui.painter().rect_filled(rect, 5.0, visuals.weak_bg_fill);

@@ -1,5 +1,6 @@
 //! The export dialog, which writes files.
 
+use super::answers::body;
 use super::export_sheet::sheet_row;
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::choosing::Purpose;
@@ -23,6 +24,9 @@ const THUMBNAIL: f32 = 88.0;
 /// The range of sizes that are offered, pixels.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 
+/// The width of the dialog, points.
+const WIDTH: f32 = 560.0;
+
 /// Draws the dialog.
 pub fn show(
     export: &ExportForm,
@@ -30,24 +34,25 @@ pub fn show(
     actions: &mut Actions,
     ui: &mut Ui,
 ) {
-    ui.set_width(560.0);
-    ui.heading("Export");
     if let Some(run) = &export.run {
         let folder = std::path::absolute(&export.plan.folder).unwrap_or_else(|_| export.plan.folder.clone());
         return working(run, &folder, actions, ui);
     }
-    let mut selection = export.plan.selection.clone();
-    views(ui, export, &mut selection, thumbnails);
-    if !export.plan.own.is_empty() {
-        let names: Vec<&str> = export.plan.own.iter().map(|(shows, _)| shows.name()).collect();
-        let text = format!("Exported as their own views show them: {}.", names.join(", "));
-        ui.label(RichText::new(text).weak().small());
-    }
-    ui.add_space(6.0);
-    settings(ui, export, &mut selection, actions);
-    actions.push_changed(&export.plan.selection, selection, DialogAction::Select);
     let files = export.plan.files();
-    listed(ui, &files);
+    body(ui, WIDTH, |ui| {
+        ui.heading("Export");
+        let mut selection = export.plan.selection.clone();
+        views(ui, export, &mut selection, thumbnails);
+        if !export.plan.own.is_empty() {
+            let names: Vec<&str> = export.plan.own.iter().map(|(shows, _)| shows.name()).collect();
+            let text = format!("Exported as their own views show them: {}.", names.join(", "));
+            ui.label(RichText::new(text).weak().small());
+        }
+        ui.add_space(6.0);
+        settings(ui, export, &mut selection, actions);
+        actions.push_changed(&export.plan.selection, selection, DialogAction::Select);
+        listed(ui, &files);
+    });
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         let can = files.as_ref().is_ok_and(|f| !f.is_empty());
@@ -231,8 +236,28 @@ fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, Failure>) {
 /// The height of the messages, points: the same for any number of them, so that the button below stays in its place.
 const TOLD: f32 = 220.0;
 
-/// Draws the progress of the export and its messages.
+/// Draws the progress of the export, its messages, and the button that ends it, or those for its end.
 fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
+    body(ui, WIDTH, |ui| progress(run, ui));
+    ui.add_space(8.0);
+    if run.end.is_none() {
+        let stop = ui.add_enabled(!run.is_stopped, egui::Button::new("Stop"));
+        let meaning = "Ends the export. Complete files stay, and the file being written is left out. Escape does the same.";
+        actions.push_if(stop.on_hover_text(meaning).clicked(), DialogAction::Stop);
+        return;
+    }
+    // The buttons stand in one line, so that the dialog grows no higher and no button moves under the pointer.
+    ui.horizontal(|ui| {
+        actions.push_if(ui.button("Close").clicked(), DialogAction::Leave);
+        if ui.button("Open folder").on_hover_text("Opens the folder of the written files.").clicked() {
+            actions.push(FileAction::OpenOutside(folder.display().to_string()));
+        }
+    });
+}
+
+/// Draws the progress of the export and its messages.
+fn progress(run: &ExportRun, ui: &mut Ui) {
+    ui.heading("Export");
     ui.add(ProgressBar::new(run.done()));
     ui.add(Label::new(run.standing()).truncate());
     let lines = ScrollArea::vertical().max_height(TOLD).min_scrolled_height(TOLD).auto_shrink(false);
@@ -246,24 +271,4 @@ fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
     ui.label(
         RichText::new(if run.end == Some(Ok(())) { "All files have been written." } else { "" }).strong(),
     );
-    if run.end.is_none() {
-        let stop = ui.add_enabled(!run.is_stopped, egui::Button::new("Stop"));
-        if stop
-            .on_hover_text(
-                "Ends the export. Complete files stay, and the file being written is left out. Escape \
-                does the same.",
-            )
-            .clicked()
-        {
-            actions.push(DialogAction::Stop);
-        }
-        return;
-    }
-    // The buttons stand in one line, so that the dialog grows no higher and no button moves under the pointer.
-    ui.horizontal(|ui| {
-        actions.push_if(ui.button("Close").clicked(), DialogAction::Leave);
-        if ui.button("Open folder").on_hover_text("Opens the folder of the written files.").clicked() {
-            actions.push(FileAction::OpenOutside(folder.display().to_string()));
-        }
-    });
 }

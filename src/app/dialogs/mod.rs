@@ -16,34 +16,26 @@ use super::model::dialog::Dialog;
 use super::model::recovery::RecoveredWork;
 use super::shows::Shows;
 use crate::cut::FAMILIES;
-use answers::{answer, buttons};
-use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, TextureHandle, Ui};
+use answers::{answer, body, body_of, buttons};
+use egui::{Context, Grid, Id, Key, Modal, RichText, TextureHandle, Ui};
 use std::collections::HashMap;
 use std::time::Duration;
-
-/// The space that dialogs leave free above and below, their own margins included, points.
-const AROUND_DIALOG: f32 = 48.0;
 
 /// Draws the open dialog, if any; `thumbnails` are the small pictures of the export dialog.
 pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: &mut Actions, ctx: &Context) {
     let Some(dialog) = &model.session.dialog else { return };
-    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
-        // In a window lower than the dialog, the dialog scrolls.
-        let room = ctx.content_rect().height() - AROUND_DIALOG;
-        ui.set_max_height(room);
-        ScrollArea::vertical().id_salt("dialog").max_height(room).show(ui, |ui| match dialog {
-            Dialog::Unsaved(_) => unsaved(model, actions, ui),
-            Dialog::Moved(_) => moved(actions, ui),
-            Dialog::Recover(found) => recover(model, actions, ui, found),
-            Dialog::ChangedOutside => changed_outside(actions, ui),
-            Dialog::Export(export) => export_dialog::show(export, thumbnails, actions, ui),
-            Dialog::Path(form) => asked_path::show(actions, ui, form),
-            Dialog::Retarget(form) => retarget_dialog::show(form, actions, ui),
-            Dialog::Yield(form) => yield_dialog::show(model, form, actions, ui),
-            Dialog::Cuts => cut_chooser::show(actions, ui),
-            Dialog::Keys => keys(actions, ui),
-            Dialog::About(about) => about::show(about, actions, ui),
-        });
+    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| match dialog {
+        Dialog::Unsaved(_) => unsaved(model, actions, ui),
+        Dialog::Moved(_) => moved(actions, ui),
+        Dialog::Recover(found) => recover(model, actions, ui, found),
+        Dialog::ChangedOutside => changed_outside(actions, ui),
+        Dialog::Export(export) => export_dialog::show(export, thumbnails, actions, ui),
+        Dialog::Path(form) => asked_path::show(actions, ui, form),
+        Dialog::Retarget(form) => retarget_dialog::show(form, actions, ui),
+        Dialog::Yield(form) => yield_dialog::show(model, form, actions, ui),
+        Dialog::Cuts => cut_chooser::show(actions, ui),
+        Dialog::Keys => keys(actions, ui),
+        Dialog::About(about) => about::show(about, actions, ui),
     });
     let is_escaped = !modal.any_popup_open && ctx.input(|i| i.key_pressed(Key::Escape));
     let is_left = modal.should_close() && !dialog.insists();
@@ -57,9 +49,10 @@ pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: 
 
 /// Asks before something is lost: the user can keep it, discard it, or cancel.
 fn parting(actions: &mut Actions, ui: &mut Ui, heading: &str, text: &str, [kept, left]: [&str; 2]) {
-    ui.set_width(380.0);
-    ui.heading(heading);
-    ui.label(text);
+    body(ui, 380.0, |ui| {
+        ui.heading(heading);
+        ui.label(text);
+    });
     let answers = [DialogAction::Keep, DialogAction::GiveUp, DialogAction::Leave];
     answer(actions, answers, buttons(ui, &[kept, left, "Cancel"]));
 }
@@ -75,16 +68,17 @@ fn moved(actions: &mut Actions, ui: &mut Ui) {
 }
 
 fn recover(model: &Model, actions: &mut Actions, ui: &mut Ui, found: &RecoveredWork) {
-    ui.set_width(400.0);
-    ui.heading("Recover unsaved work?");
     let of =
         found.path.as_ref().map_or_else(|| "not in a file yet".into(), |p| format!("from {}", p.display()));
     let (name, open) = (&found.design.name, model.document.title());
     let when = ago(found.when.elapsed().unwrap_or_default());
-    ui.label(format!(
-        "The program ended before {name} ({of}) was saved. It was last changed {when}. If you recover it, it opens \
-            in place of {open}."
-    ));
+    body(ui, 400.0, |ui| {
+        ui.heading("Recover unsaved work?");
+        ui.label(format!(
+            "The program ended before {name} ({of}) was saved. It was last changed {when}. If you recover it, it opens \
+                in place of {open}."
+        ));
+    });
     let answers = [DialogAction::Recover, DialogAction::Leave, DialogAction::Forget];
     answer(actions, answers, buttons(ui, &["Recover", "Later", "Discard"]));
 }
@@ -102,21 +96,23 @@ fn ago(since: Duration) -> String {
 }
 
 fn changed_outside(actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(400.0);
-    ui.heading("The file has changed");
-    ui.label("Another program has changed the file, and you have unsaved changes.");
+    body(ui, 400.0, |ui| {
+        ui.heading("The file has changed");
+        ui.label("Another program has changed the file, and you have unsaved changes.");
+    });
     let answers = [DialogAction::Leave, DialogAction::ReadAgain];
     answer(actions, answers, buttons(ui, &["Keep my changes", "Reload the file"]));
 }
 
 /// The width of the column with the meanings of keys and terms, points.
-const MEANING: f32 = 450.0;
+const MEANING: f32 = 430.0;
+
+/// The greatest height of the list of keys and terms, points.
+const KEYS: f32 = 560.0;
 
 fn keys(actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(620.0);
-    ui.heading("Keys and terms");
-    let room = ui.ctx().content_rect().height() - AROUND_DIALOG - 90.0;
-    ScrollArea::vertical().max_height(room.min(520.0)).show(ui, |ui| {
+    body_of(ui, 620.0, KEYS, |ui| {
+        ui.heading("Keys and terms");
         let ctx = ui.ctx().clone();
         Grid::new("keys").num_columns(2).striped(true).max_col_width(MEANING).show(ui, |ui| {
             let mut line = |key: String, what: &str| {
@@ -126,7 +122,9 @@ fn keys(actions: &mut Actions, ui: &mut Ui) {
             };
             line("drag".into(), "Tilts the stone; with Shift or the right button turns it about its axis.");
             line("wheel".into(), "Zooms at the pointer; the middle button moves the picture.");
-            line("double click".into(), "Shows one view alone.");
+            line("double click".into(), "Shows one view alone. On the name or the slider of a row, it sets the row's default.");
+            line("Tab".into(), "Goes from number to number. A digit over a slider begins its number, Return takes it, and \
+                Escape restores the one before. Space holds a number that has a padlock.");
             line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°. With Alt they move the \
                 picture. Comma and full stop turn the stone, + and - zoom, and Space follows the ray in the middle.");
             line("C held".into(), "Shows the other design of a comparison.");

@@ -1,12 +1,13 @@
 //! The dialog that fits the design to another material: each tier before and after, and the light of both.
 
-use super::answers::{answer, buttons_alone};
+use super::answers::{answer, body, buttons_alone};
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
-use crate::app::panels::rows::{Number, choice_row, number_row};
+use crate::app::panels::rows::{ChoiceRow, Number, number_row};
 use crate::app::panels::stone_rows::material_choice;
 use crate::app::theme;
 use crate::cut::Retargeted;
+use crate::math::signed;
 use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 
 /// The width of the dialog, points.
@@ -23,23 +24,24 @@ const FACTOR: &str = "The factor of the tangents. Without a number that is typed
 
 /// Draws the dialog.
 pub fn show(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 60.0));
-    ui.heading("Fit to another material");
-    ui.add_space(4.0);
-    options(form, actions, ui);
-    ui.add_space(6.0);
-    match &form.found {
-        Ok(found) => {
-            tiers(found, ui);
-            light(form, ui);
-            for note in &found.notes {
-                ui.add(Label::new(RichText::new(sentence(note)).weak().small()).wrap());
+    body(ui, WIDTH, |ui| {
+        ui.heading("Fit to another material");
+        ui.add_space(4.0);
+        options(form, actions, ui);
+        ui.add_space(6.0);
+        match &form.found {
+            Ok(found) => {
+                tiers(found, ui);
+                light(form, ui);
+                for note in &found.notes {
+                    ui.add(Label::new(RichText::new(sentence(note)).weak().small()).wrap());
+                }
+            }
+            Err(why) => {
+                ui.label(RichText::new(sentence(&why.to_string())).color(theme::bad(ui.visuals())));
             }
         }
-        Err(why) => {
-            ui.label(RichText::new(sentence(&why.to_string())).color(theme::bad(ui.visuals())));
-        }
-    }
+    });
     let answers = [DialogAction::Apply, DialogAction::Leave];
     match form.found.as_ref().is_ok_and(|found| !found.tiers.is_empty()) {
         true => answer(actions, answers, buttons_alone(ui, &["Apply", "Cancel"])),
@@ -50,10 +52,10 @@ pub fn show(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the choices: the new material, the rule and its factor.
 fn options(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
     let mut options = form.options.clone();
-    if let Some(material) = material_choice(ui, ("New material", MATERIAL), &options.material) {
+    if let Some(material) = material_choice(ui, ("New material", MATERIAL), &options.material, None) {
         options.material = material;
     }
-    choice_row(ui, "Rule", RULE, options.rule.name(), |ui| {
+    ChoiceRow::new("Rule", RULE, options.rule.name()).show(ui, |ui| {
         for rule in FitRule::ALL {
             if ui.selectable_label(rule == options.rule, rule.name()).on_hover_text(rule.meaning()).clicked()
             {
@@ -65,7 +67,7 @@ fn options(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
         let own = form.found.as_ref().map_or(1.0, |found| found.factor);
         let before = options.factor.unwrap_or(own);
         let mut factor = before;
-        let number = Number { decimals: 4, speed: 0.001, range: 0.1..=10.0, unit: "" };
+        let number = Number { decimals: 4, speed: 0.001, range: 0.1..=10.0, unit: "", default: None };
         number_row(ui, ("Factor", FACTOR), number, &mut factor);
         if factor != before {
             options.factor = Some(factor);
@@ -99,7 +101,7 @@ fn tiers(found: &Retargeted, ui: &mut Ui) {
                 ui.label(tier.facets.to_string());
                 ui.label(format!("{:.2}°", tier.before_deg));
                 ui.label(format!("{:.2}°", tier.after_deg));
-                let margin_text = RichText::new(format!("{margin:+.2}°"));
+                let margin_text = RichText::new(format!("{}°", signed(margin, 2)));
                 let is_leaking = margin < 0.0;
                 let colour = theme::caution(ui.visuals());
                 match tier.after_deg < 0.0 {

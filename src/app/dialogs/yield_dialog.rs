@@ -1,10 +1,10 @@
 //! The dialog of size and yield: the stone that a piece of rough gives, or that has a weight.
 
-use super::answers::{answer, buttons_alone};
+use super::answers::{answer, body, buttons_alone};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{SizeBy, YieldForm, YieldOptions};
-use crate::app::panels::rows::{Number, choice_row, number_row};
+use crate::app::panels::rows::{ChoiceRow, Number, number_row};
 use crate::app::theme;
 use crate::cut::{Finished, FitLimit, Rough};
 use egui::{Grid, RichText, Ui, vec2};
@@ -33,19 +33,20 @@ const SIDES: [(&str, &str); 3] = [
 
 /// Draws the dialog.
 pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 60.0));
-    ui.heading("Size and yield");
-    ui.add_space(4.0);
-    let mut options = form.options;
-    numbers(&mut options, ui);
-    actions.push_changed(&form.options, options, DialogAction::Size);
-    ui.add_space(8.0);
-    match &form.found {
-        Ok(found) => results(model, &form.options, found, ui),
-        Err(why) => {
-            ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
+    body(ui, WIDTH, |ui| {
+        ui.heading("Size and yield");
+        ui.add_space(4.0);
+        let mut options = form.options;
+        numbers(&mut options, ui);
+        actions.push_changed(&form.options, options, DialogAction::Size);
+        ui.add_space(8.0);
+        match &form.found {
+            Ok(found) => results(model, &form.options, found, ui),
+            Err(why) => {
+                ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
+            }
         }
-    }
+    });
     // A design cannot keep a girdle thickness in mm, so its size can be taken over only where the girdle is that of
     // the design.
     let answers = [DialogAction::Apply, DialogAction::Leave];
@@ -57,9 +58,10 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
 
 /// Draws the rows in which numbers are typed: the rough or the weight, and the girdle.
 fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
-    let mm = |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm" };
-    let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct" };
-    choice_row(ui, "Size by", "The rough or a weight sets the size.", options.by.name(), |ui| {
+    let mm =
+        |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm", default: None };
+    let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct", default: None };
+    ChoiceRow::new("Size by", "The rough or a weight sets the size.", options.by.name()).show(ui, |ui| {
         for by in SizeBy::ALL {
             if ui.selectable_label(by == options.by, by.name()).on_hover_text(by.meaning()).clicked() {
                 options.by = by;

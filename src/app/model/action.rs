@@ -15,18 +15,19 @@ use super::measure_tilt::TiltOptions;
 use super::meet_pick::MeetPick;
 use super::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use super::recovery::RecoveredWork;
+use super::render_settings::SettingChange;
 use super::saving::{SavedDesign, Stamp};
 use super::session::{Flowing, HeldKeys};
 use super::workspace::PanelSide;
-use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
-use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, SweptPoint, Tilts, Which};
+use crate::app::studio::{FiguresOrder, Grade, Order, SweptPoint, Tilts, Which};
 use crate::cut::{Audit, Cut, Design, MaterialRef, ScaledSide, TierChange};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
 use crate::optics::Metal;
+use crate::picture::liquid_glass::LightFrom;
 use crate::scene::{Movement, Pose, Ring, RingMetal, RingPlan, Specimen};
 use crate::search::Goal;
 use glam::DVec2;
@@ -101,12 +102,10 @@ pub enum Edit {
     Fitted(Box<Design>),
     /// Sets the diameter by which the design is scaled, in mm.
     Diameter(f64),
-    /// Sets the light of renders, by its name or file.
-    Light(String),
-    /// Sets the exposure of renders, in stops: one more doubles the light.
-    Exposure(f64),
-    /// Sets the half angle of the observer's head, degrees; 0 for none.
-    Head(f64),
+    /// Changes one of the settings of pictures.
+    Setting(SettingChange),
+    /// Sets light, background and head as they were when the document began.
+    ResetLight,
     /// Replaces the copies by so many that are scattered anew.
     LayOut(usize),
     /// Sets how plates move in renders.
@@ -166,24 +165,8 @@ pub enum ViewAction {
     Keys(HeldKeys),
     /// Sets the distance of the eye in perspective from the origin, girdle radii.
     Distance(f64),
-    /// Sets the number of bands of wavelengths in renders.
-    Wavelengths(u32),
-    /// Sets the background by its name or file; `None` for no background.
-    Behind(Option<String>),
-    /// Sets the distance of the background behind the middle of the scene, mm.
-    BehindMm(f64),
-    /// Sets the strength of refraction in renders: at 0 rays go straight on, 1 is physics.
-    Strength(f64),
-    /// Sets the part of the light of sparkles that spreads around them in renders, 0 to 1.
-    Glow(f64),
-    /// Sets the greatest number of bounces of light in renders.
-    Bounces(u32),
-    /// Sets the angle by which the light of renders is turned about its axis, degrees.
-    LightTurn(f64),
-    /// Sets whether the light's axis points up in renders (true) or to the eye (false).
-    LightUpright(bool),
-    Smoothing(Smoothing),
-    Liquid(Liquid),
+    /// Moves the light of panes of liquid glass, which follows the pointer or time.
+    LiquidLight(LightFrom),
     /// Sets the state of the flowing background in a view of a refraction map.
     Flowing(usize, Flowing),
     /// Sets whether zones count the areas of the strongest exits (true) or energy (false).
@@ -219,6 +202,10 @@ pub enum FileAction {
     Chosen(Question, Choice),
     /// Opens a file; a mesh that is read again is read as before.
     Open(PathBuf, OpeningPurpose),
+    /// Does at the start of the program what it was started with; no step of undo leads before it.
+    Begin(Then),
+    /// Opens the work that was open when the program last ended.
+    Restore(Box<RecoveredWork>),
     /// Opens a file with these options for meshes.
     OpenWith(FileRequest),
     /// Hands in a file that has been read.

@@ -30,7 +30,7 @@ pub enum Command by keys {
     Top: "T", "Top", "Looks at the table.";
     Side: "S", "Side", "Looks along the girdle.";
     Bottom: "B", "Bottom", "Looks at the culet.";
-    Free: "F", "Previous tilt", "Goes back to the tilt that the view had before.";
+    PreviousTilt: "F", "Previous tilt", "Goes back to the last tilt before top, side or bottom.";
     Fit: "0", "Fit to view", "Shows the whole stone.";
     Perspective: "P", "Perspective",
         "Shows the stone of this view from nearby instead of along parallel rays.";
@@ -56,6 +56,8 @@ pub enum Command by keys {
     LayOut: "Space", "Scatter copies", "Scatters the copies in renders anew.";
     NextBehind: "G", "Next background", "Puts the next world or pattern behind renders.";
     AnotherLight: "Shift+G", "Another light", "Lights renders by another light and turns it, both at random.";
+    ResetLight: "", "Reset light",
+        "Sets light, background and head as they were when the document was opened.";
     Tiers: "Shift+T", "Table of tiers",
         "Opens a table below the views, in which tiers are added, placed and named.";
     BenchMode: "Shift+B", "Bench mode",
@@ -100,12 +102,12 @@ pub const MENUS: [Menu; 6] = [
     Menu {
         title: "View",
         groups: &[
-            &[Top, Side, Bottom, Free, Fit],
+            &[Top, Side, Bottom, PreviousTilt, Fit],
             &[Perspective, EyeLeans],
             &[One, Two, Four],
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
-            &[Play, LayOut, NextBehind, AnotherLight],
+            &[Play, LayOut, NextBehind, AnotherLight, ResetLight],
             &[Tiers, BenchMode, Audit, Map, Search],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],

@@ -1,6 +1,6 @@
 //! Progress at the faceting machine: the step in sight, and which of its indices have been cut.
 
-use crate::cut::{Tier, TierZone, Tiers};
+use crate::cut::{TierZone, Tiers};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -29,7 +29,7 @@ pub struct CuttingProgress {
 pub struct CuttingStep {
     /// The place of the tier in the design's list.
     pub place: usize,
-    /// The tier's name, or its zone and number.
+    /// The name by which the tier is called.
     pub name: String,
     /// The zone of the tier.
     pub zone: TierZone,
@@ -43,14 +43,11 @@ pub struct CuttingStep {
 
 /// Returns the steps of a design: the tiers that are cut, in their order.
 pub fn steps(tiers: &Tiers) -> Vec<CuttingStep> {
-    let cut = tiers.tiers.iter().enumerate().filter(|(_, tier)| tier.is_cut && !tier.facets.is_empty());
-    let name = |place: usize, tier: &Tier| match tier.name() {
-        "" => format!("{} {}", tier.zone().name(), place + 1),
-        name => name.to_owned(),
-    };
-    cut.map(|(place, tier)| CuttingStep {
+    let named = tiers.names().into_iter().zip(&tiers.tiers).enumerate();
+    let cut = named.filter(|(_, (_, tier))| tier.is_cut && !tier.facets.is_empty());
+    cut.map(|(place, (name, tier))| CuttingStep {
         place,
-        name: name(place, tier),
+        name,
         zone: tier.zone(),
         angle: tier.angle.abs().min(180.0 - tier.angle.abs()),
         indices: tier.facets.iter().map(|facet| facet.index).collect(),
@@ -106,7 +103,7 @@ fn mark(design: &str, step: &CuttingStep, index: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::Indexed;
+    use crate::cut::{Indexed, Tier};
 
     fn step(angle: f64) -> CuttingStep {
         let facets = [0.0, 24.0].map(|index| Indexed { index, name: String::new() }).to_vec();

@@ -1,10 +1,13 @@
 //! The open document: a design and its light, with the steps of undo and the file it came from.
 
+use super::document_origin::DocumentOrigin;
 use super::extent::Extent;
 use super::history::History;
 use super::impossible;
 use super::recovery::RecoveredWork;
+use super::render_settings::RenderSettings;
 use super::saving::{SaveRequest, SavedDesign, Stamp};
+use super::view_history::ViewState;
 use super::work::{ReadMesh, Work};
 use crate::cut::{Cut, Design, Tiers};
 use crate::io::design_file::{self, ImportedDesign};
@@ -20,13 +23,8 @@ pub struct Document {
     /// The work as it is now. It is changed in place; [`update`](Self::update) then rebuilds the stone.
     pub work: Work,
     history: History<Work>,
-    saved: Design,
-    /// The copies and their companions as they were opened, or as they were last written as a scene.
-    laid: (Copies, Companions),
-    path: Option<PathBuf>,
-    stamp: Stamp,
-    /// True where the file no longer exists.
-    is_lost: bool,
+    /// The origins of the designs in the steps of undo; the work has the number of its own.
+    origins: Vec<DocumentOrigin>,
     /// The stone of the last design that makes one. Its own design may be older than `built` in what changes no light, such
     /// as the name.
     specimen: Arc<Specimen>,
@@ -59,8 +57,10 @@ fn adopt_meets(design: &mut Design) {
     }
 }
 
-/// The light that the program starts with.
-pub const FIRST_LIGHT: &str = "studio";
+/// Returns the name of a file for a name that people read.
+fn file_name(name: &str) -> String {
+    name.to_lowercase().replace([' ', '/'], "-")
+}
 
 impl Document {
     /// Opens a design, with or without a file.
@@ -73,22 +73,16 @@ impl Document {
             design: design.clone(),
             copies: Copies::default(),
             companions: Companions::default(),
-            light: FIRST_LIGHT.to_owned(),
-            exposure: 0.0,
-            head: 0.0,
+            settings: RenderSettings::default(),
             mesh: None,
             remarks: Arc::default(),
+            origin: 0,
         };
-        let stamp = path.as_deref().map_or_else(Stamp::default, Stamp::of);
         let history = History::new(work.clone());
         Ok(Self {
             work,
             history,
-            saved: design.clone(),
-            laid: Default::default(),
-            path,
-            stamp,
-            is_lost: false,
+            origins: vec![DocumentOrigin::new(design.clone(), path)],
             specimen,
             extent: OnceLock::new(),
             fault: None,
@@ -120,13 +114,15 @@ impl Document {
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
     pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, FileError> {
-        let ImportedDesign { mut design, notes, warnings, doubt } = design_file::read_with(path, mesh)?;
+        let ImportedDesign { mut design, notes, warnings, doubt, parts, .. } =
+            design_file::read_with(path, mesh)?;
         adopt_meets(&mut design);
         let mut document = Self::new(design, Some(path.to_owned()))
             .map_err(|error| FileError::new(path.display(), error))?;
         document.work.remarks = warnings.into_iter().chain(notes).collect();
         let diameter_mm = document.work.design.diameter_mm;
-        let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful, diameter_mm };
+        let read =
+            |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, parts, is_doubtful, diameter_mm };
         document.work.mesh = doubt.map(read);
         document.history = History::new(document.work.clone());
         Ok(document)
@@ -153,31 +149,78 @@ impl Document {
             Self::new(found.design.clone(), found.path.clone()).map_err(|e| Failure::Input(e.to_string()))?;
         document.work.mesh.clone_from(&found.mesh);
         document.history = History::new(document.work.clone());
-        document.saved =
-            found.on_disk.clone().unwrap_or_else(|| Design { name: String::new(), ..document.saved });
+        let nameless = || Design { name: String::new(), ..found.design.clone() };
+        document.origin_mut().saved = found.on_disk.clone().unwrap_or_else(nameless);
         Ok(document)
     }
 
-    /// Sets the first light, exposure and head; this is not a step of undo.
-    pub fn begin(&mut self, light: &str, exposure: f64, head: f64) {
-        (self.work.light, self.work.exposure, self.work.head) = (light.to_owned(), exposure, head);
+    fn origin(&self) -> &DocumentOrigin {
+        &self.origins[self.work.origin]
+    }
+
+    fn origin_mut(&mut self) -> &mut DocumentOrigin {
+        &mut self.origins[self.work.origin]
+    }
+
+    /// Takes a scene around the design, with settings of pictures, as the first state of the document; this is not a step of
+    /// undo.
+    pub fn begin_with(&mut self, copies: Copies, companions: Companions, settings: RenderSettings) {
+        (self.work.copies, self.work.companions) = (copies, companions);
+        self.origin_mut().first.clone_from(&settings);
+        self.work.settings = settings;
+        self.keep_copies();
         self.history = History::new(self.work.clone());
     }
 
-    /// Takes over another document's copies and companions, and their saved state.
-    pub fn take_copies(&mut self, other: &Self) {
-        self.work.copies.clone_from(&other.work.copies);
-        self.work.companions.clone_from(&other.work.companions);
-        self.laid.clone_from(&other.laid);
+    /// Goes on from another document, whose views are given: this one becomes the next step of undo after that one.
+    pub fn go_on_from(&mut self, before: Self, views: ViewState) {
+        let Self { work, mut history, mut origins, .. } = before;
+        history.settle(&work);
+        origins[work.origin].views = Some(views);
+        let own = self.origin().clone();
+        self.work.origin = origins.len();
+        origins.push(own);
+        history.settle(&self.work);
+        (self.history, self.origins) = (history, origins);
+    }
+
+    /// Keeps the views of the design with another origin, which undo or redo has replaced by the present one; returns the views
+    /// that the present design had.
+    pub fn exchange_views(&mut self, left: usize, views: ViewState) -> Option<ViewState> {
+        if let Some(origin) = self.origins.get_mut(left) {
+            origin.views = Some(views);
+        }
+        self.origin_mut().views.take()
+    }
+
+    /// Takes over the copies, the companions and the settings of another document, and their first state.
+    pub fn take_scene(&mut self, other: &Self) {
+        let Work { copies, companions, settings, .. } = other.work.clone();
+        (self.work.copies, self.work.companions, self.work.settings) = (copies, companions, settings);
+        let DocumentOrigin { laid, first, .. } = other.origin().clone();
+        (self.origin_mut().laid, self.origin_mut().first) = (laid, first);
+        self.history = History::new(self.work.clone());
+    }
+
+    /// Returns the settings of pictures with which the design was opened: the defaults of their rows.
+    pub fn first_settings(&self) -> &RenderSettings {
+        &self.origin().first
+    }
+
+    /// Returns the copies and the companions as they were opened, or last written as a scene.
+    pub fn laid(&self) -> (&Copies, &Companions) {
+        let (copies, companions) = &self.origin().laid;
+        (copies, companions)
     }
 
     /// Replaces the design by that of another stone of the scene, as a step of undo. The new design belongs to no
     /// file.
     pub fn take_up(&mut self, design: Design, copies: Copies, companions: Companions) {
         let was_laid = !self.has_moved_copies() && !self.is_changed();
-        self.saved.clone_from(&design);
-        self.work = Work { design, copies, companions, mesh: None, ..self.work.clone() };
-        (self.path, self.stamp, self.is_lost) = (None, Stamp::default(), false);
+        let DocumentOrigin { laid, first, .. } = self.origin().clone();
+        self.origins.push(DocumentOrigin { laid, first, ..DocumentOrigin::new(design.clone(), None) });
+        let origin = self.origins.len() - 1;
+        self.work = Work { design, copies, companions, mesh: None, origin, ..self.work.clone() };
         if was_laid {
             self.keep_copies();
         }
@@ -187,7 +230,7 @@ impl Document {
 
     /// Marks the present places of the copies and their companions as saved.
     pub fn keep_copies(&mut self) {
-        self.laid = (self.work.copies.clone(), self.work.companions.clone());
+        self.origin_mut().laid = (self.work.copies.clone(), self.work.companions.clone());
     }
 
     /// Returns what the metal of the scene's ring has to be made of now; `None` without a ring, and while the design makes no
@@ -199,7 +242,7 @@ impl Document {
 
     /// Returns whether copies or their companions have been moved since they were read or last saved.
     pub fn has_moved_copies(&self) -> bool {
-        (&self.laid.0, &self.laid.1) != (&self.work.copies, &self.work.companions)
+        self.laid() != (&self.work.copies, &self.work.companions)
     }
 
     /// Builds the stone after a change, or notes why there is none.
@@ -286,50 +329,66 @@ impl Document {
 
     /// Returns the file that the document is saved in, if any.
     pub fn path(&self) -> Option<&Path> {
-        self.path.as_deref()
+        self.origin().path.as_deref()
     }
 
-    /// Returns the title of the document: the name of its file, or that of the design.
+    /// Sets the name of the scene whose stone is edited.
+    pub fn call_scene(&mut self, name: &str) {
+        self.origin_mut().scene = Some(name.to_owned());
+    }
+
+    /// Returns the name of the scene whose stone is edited, or that of the design.
+    pub fn name(&self) -> &str {
+        self.origin().scene.as_deref().unwrap_or(&self.work.design.name)
+    }
+
+    /// Returns the title of the document: the name of its file, of its scene, or of the design.
     pub fn title(&self) -> String {
-        let file = self.path.as_deref().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
-        file.unwrap_or_else(|| self.work.design.name.clone())
+        let file = self.path().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
+        file.unwrap_or_else(|| self.name().to_owned())
     }
 
     /// Returns the folder of the document's file, or the present folder where there is no file.
     pub fn folder(&self) -> PathBuf {
         let here = || std::env::current_dir().unwrap_or_default();
-        self.path.as_deref().and_then(Path::parent).map_or_else(here, Path::to_owned)
+        self.path().and_then(Path::parent).map_or_else(here, Path::to_owned)
     }
 
-    /// Returns the name for files of the document, without an ending: that of its file, or one made of the design's name.
+    /// Returns the name for files of the document, without an ending: that of its file, or one made of its own name.
     pub fn stem(&self) -> String {
-        let file = self.path.as_deref().and_then(Path::file_stem).map(|n| n.to_string_lossy().into_owned());
-        file.unwrap_or_else(|| self.work.design.name.to_lowercase().replace([' ', '/'], "-"))
+        let file = self.path().and_then(Path::file_stem).map(|n| n.to_string_lossy().into_owned());
+        file.unwrap_or_else(|| file_name(self.name()))
+    }
+
+    /// Returns the name for a file of the design alone, without an ending.
+    pub fn design_stem(&self) -> String {
+        file_name(&self.work.design.name)
     }
 
     /// Returns the design as it was last saved.
     pub fn saved(&self) -> &Design {
-        &self.saved
+        &self.origin().saved
     }
 
     /// Returns whether closing the document would lose work.
     pub fn is_changed(&self) -> bool {
-        self.work.design != self.saved || self.is_lost
+        self.work.design != self.origin().saved || self.is_lost()
     }
 
     /// Returns the state of the file when it was last read or written.
     pub fn stamp(&self) -> Stamp {
-        self.stamp
+        self.origin().stamp
     }
 
     /// Returns whether the file no longer existed when it was last checked.
     pub fn is_lost(&self) -> bool {
-        self.is_lost
+        self.origin().is_lost
     }
 
     /// Accepts the file on disk as it is, so that its change is not reported again.
     pub fn accept_outside(&mut self, stamp: Stamp) {
-        (self.stamp, self.is_lost) = (stamp, !stamp.is_there());
+        let origin = self.origin_mut();
+        (origin.stamp, origin.is_lost) = (stamp, !stamp.is_there());
     }
 
     /// Returns whether there is a step to undo, and one to redo.
@@ -380,8 +439,9 @@ impl Document {
 
     /// Records that a design of this document has been saved: its file is that of the document from now on.
     pub fn take_saved(&mut self, saved: SavedDesign) {
-        (self.stamp, self.path, self.is_lost) = (saved.stamp, Some(saved.path), false);
-        self.saved = saved.design;
+        let origin = self.origin_mut();
+        (origin.stamp, origin.path, origin.is_lost) = (saved.stamp, Some(saved.path), false);
+        origin.saved = saved.design;
     }
 }
 

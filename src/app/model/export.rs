@@ -2,6 +2,7 @@
 
 use super::export_sheet::SheetChoice;
 use super::framing::{Framing, FramingFit};
+use super::scene_fit::SceneRoom;
 use crate::app::shows::Shows;
 use crate::app::studio::Shot;
 use crate::io::Failure;
@@ -14,7 +15,6 @@ use crate::render::{Renderer, Wanted};
 use crate::scene::{
     Companions, Copies, Glare, MetalInstance, Movement, Pose, SceneRing, Side, Specimen, View, Viewpoint,
 };
-use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -91,9 +91,8 @@ pub struct ExportPlan {
     pub linked: PictureAspect,
     /// The aspect of each view that is not linked, by what it shows.
     pub own: Vec<(Shows, PictureAspect)>,
-    /// Half the side of the square that renders show in the window, girdle radii; `None` where they show the stone alone and
-    /// at rest.
-    pub reach: Option<f64>,
+    /// The part of space that renders show in the window; `None` where they show the stone alone and at rest.
+    pub room: Option<SceneRoom>,
     pub selection: Selection,
     /// How plates move, for the scene file.
     pub movement: Movement,
@@ -255,8 +254,11 @@ impl ExportPlan {
         let view = View { side: shows.side().unwrap_or(seen.side), ..seen };
         let shot = Shot { shows, view, ..self.shot.clone() };
         let size = [size; 2];
-        if let Some(reach) = self.reach.filter(|_| shows.has_copies()) {
-            let fit = FramingFit::reaching(reach.max(self.copies_reach(&view)));
+        if let Some(room) = self.room.filter(|_| shows.has_copies()) {
+            let fit = match room {
+                SceneRoom::Square { half } => FramingFit::reaching(half.max(self.copies_reach(&view))),
+                SceneRoom::Ball { .. } => room.fit(&view),
+            };
             return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
         let specimen = Arc::clone(&self.upright);
@@ -266,13 +268,10 @@ impl ExportPlan {
         Shot { film, whole, specimen, copies, companions, ..shot }
     }
 
-    /// Returns how far copies and companions reach in a view that turns them, girdle radii, so that the picture cuts
-    /// nothing off.
+    /// Returns how far copies reach in a view that turns them, girdle radii, so that the picture cuts nothing off.
     fn copies_reach(&self, view: &View) -> f64 {
         let turned = Pose::turned(view.turn);
         let poses = self.shot.copies.iter().map(|pose| turned.after(pose)).collect();
-        let across = |at: DVec3| (view.turn * at).truncate().abs().max_element();
-        let beside = self.shot.companions.vertices().map(across).fold(0.0, f64::max);
-        Copies::at(poses, self.shot.specimen.solid().vertices()).reach(0.0).max(beside)
+        Copies::at(poses, self.shot.specimen.solid().vertices()).reach(0.0)
     }
 }

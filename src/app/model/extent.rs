@@ -43,7 +43,7 @@ impl Extent {
         }
         let outline = hull(solid.vertices().iter().copied().map(DVec3::truncate).collect());
         // A solid so thin that rounding leaves no outline is measured along its axes.
-        Calipers::along_mirror(&outline).map_or(by_sides, |Calipers { length, width, middle, .. }| {
+        Calipers::of_stone(&outline).map_or(by_sides, |Calipers { length, width, middle, .. }| {
             let is_round = round_diameter(&outline, middle, width).is_some();
             Self { length, width, is_round }
         })

@@ -9,9 +9,6 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// The range of the zoom.
 const ZOOMS: std::ops::RangeInclusive<f64> = 0.2..=200.0;
 
-/// The lean that [`Eye::free`] goes to where there was none before, radians.
-const THREE_QUARTER: DVec2 = DVec2::new(-0.25, -0.55);
-
 /// A lean smaller than this, radians, snaps to none: face up is where figures are compared.
 const SNAP: f64 = 0.012;
 
@@ -31,8 +28,15 @@ pub struct Eye {
     pub zoom: f64,
     /// The offset of the point in the pane's middle from the middle of what the view is fitted to, girdle radii.
     pub centre: DVec2,
-    /// The lean that [`free`](Self::free) goes back to.
-    pub before: DVec2,
+    /// The tilt that [`back`](Self::back) goes back to; `None` where the view has had none.
+    pub last: Option<Tilted>,
+}
+
+/// A tilt that a view had: its side and its lean, as in [`Eye`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Tilted {
+    from_below: bool,
+    lean: DVec2,
 }
 
 impl Default for Eye {
@@ -44,7 +48,7 @@ impl Default for Eye {
             turn: 0.0,
             zoom: 1.0,
             centre: DVec2::ZERO,
-            before: THREE_QUARTER,
+            last: None,
         }
     }
 }
@@ -129,15 +133,16 @@ impl Eye {
         self.fit();
     }
 
-    /// Goes back to the lean before top, side or bottom.
-    pub fn free(&mut self) {
-        self.lean = self.before;
+    /// Goes back to the tilt before top, side or bottom, if there was one.
+    pub fn back(&mut self) {
+        let Some(Tilted { from_below, lean }) = self.last else { return };
+        (self.from_below, self.lean) = (from_below, lean);
         self.fit();
     }
 
     fn keep(&mut self) {
         if self.lean.length() > SNAP && self.tilt() < FRAC_PI_2 - SNAP {
-            self.before = self.lean;
+            self.last = Some(Tilted { from_below: self.from_below, lean: self.lean });
         }
     }
 
@@ -200,15 +205,21 @@ mod tests {
     }
 
     #[test]
-    fn free_goes_back_to_the_lean_before() {
+    fn the_eye_goes_back_to_the_tilt_that_it_had_and_to_no_other() {
         let mut eye = Eye::default();
+        eye.bottom();
+        let before = eye;
+        eye.back();
+        assert_eq!(eye, before, "there was no tilt");
+        eye.top();
         eye.drag(Side::Table, DVec2::new(0.2, 0.1));
         let lean = eye.lean;
         eye.top();
         eye.bottom();
         eye.side();
         assert!((eye.tilt() - FRAC_PI_2).abs() < 1e-12);
-        eye.free();
-        assert_eq!(eye.lean, lean);
+        eye.bottom();
+        eye.back();
+        assert_eq!((eye.lean, eye.from_below), (lean, false));
     }
 }

@@ -4,6 +4,8 @@
 //! the screen and the scale stays. Views are fitted to another stone when a file is opened, when the user asks for
 //! it, or when the stone has outgrown its views.
 
+use super::document::Document;
+use super::scene_fit::FittedScene;
 use crate::scene::{Film, Specimen, View};
 use crate::trace::ray::Camera;
 use glam::{DVec2, DVec3};
@@ -20,15 +22,15 @@ const ROUND: f64 = 0.03;
 
 /// A stone that reaches beyond its extents at rest by more than this part is shown smaller, since it would leave the
 /// free space around it.
-const SLACK: f64 = 0.02;
+pub(super) const SLACK: f64 = 0.02;
 
 /// A stone is fitted anew once it reaches more than this many times as far as the one that views are fitted to.
-const OUTGROWN: f64 = 1.04;
+pub(super) const OUTGROWN: f64 = 1.04;
 /// A stone is fitted anew once it reaches less than this part of the one that views are fitted to.
-const SHRUNK: f64 = 0.6;
+pub(super) const SHRUNK: f64 = 0.6;
 
 /// A middle nearer to the origin than this part of the extent counts as at the origin: the rest is rounding.
-const CENTRED: f64 = 1e-9;
+pub(super) const CENTRED: f64 = 1e-9;
 
 /// The part of the image plane that a view without zoom takes in.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,41 +89,88 @@ fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points.map(|p| (p, p)).reduce(|(a, b), (p, q)| (a.min(p), b.max(q))).unwrap_or_default()
 }
 
-/// The stone that views are fitted to.
+/// The stone that views are fitted to, and the scene that renders are fitted to.
 #[derive(Debug, Clone)]
 pub struct Framing {
     fitted: Arc<Specimen>,
     points: Arc<[DVec3]>,
+    scene: Option<FittedScene>,
+    /// The number of times that views were fitted anew.
+    fits: u64,
 }
 
 impl Framing {
     /// Fits views to a stone.
     pub fn new(specimen: &Arc<Specimen>) -> Self {
-        Self { fitted: Arc::clone(specimen), points: outermost(specimen.solid().vertices()).into() }
+        let points = outermost(specimen.solid().vertices()).into();
+        Self { fitted: Arc::clone(specimen), points, scene: None, fits: 0 }
     }
 
-    /// Returns the stone that views are fitted to.
-    pub fn fitted(&self) -> &Arc<Specimen> {
-        &self.fitted
+    /// Fits views to the stone and the scene of a document.
+    pub fn of(document: &Document) -> Self {
+        Self { scene: FittedScene::of(document), ..Self::new(document.specimen()) }
     }
 
-    /// Fits views to another stone.
-    pub fn renew(&mut self, specimen: &Arc<Specimen>) {
+    /// Returns a number that is another after views have been fitted anew.
+    pub fn fits(&self) -> u64 {
+        self.fits
+    }
+
+    /// Returns the scene that renders are fitted to; `None` where no other body stands beside a design and its copies.
+    pub fn scene(&self) -> Option<&FittedScene> {
+        self.scene.as_ref()
+    }
+
+    /// Fits views to the stone and the scene of a document.
+    pub fn renew(&mut self, document: &Document) {
+        self.fit_stone(document.specimen());
+        self.scene = FittedScene::of(document);
+        self.fits += 1;
+    }
+
+    /// Fits views to the stone of a document, where it is another one. Renders stay fitted to the scene unless it reaches
+    /// out of them.
+    pub fn follow(&mut self, document: &Document) {
+        self.fit_stone(document.specimen());
+        self.settle_scene(document);
+        self.fits += 1;
+    }
+
+    /// Fits views to the stone of a document, and renders to its scene, where it reaches out of them or is small in
+    /// them; returns whether one did.
+    pub fn settle(&mut self, document: &Document) -> bool {
+        let is_outgrown = self.has_outgrown(document.specimen());
+        if is_outgrown {
+            self.fit_stone(document.specimen());
+        }
+        let is_anew = self.settle_scene(document) || is_outgrown;
+        self.fits += u64::from(is_anew);
+        is_anew
+    }
+
+    fn fit_stone(&mut self, specimen: &Arc<Specimen>) {
         if !Arc::ptr_eq(&self.fitted, specimen) {
-            *self = Self::new(specimen);
+            self.points = outermost(specimen.solid().vertices()).into();
+            self.fitted = Arc::clone(specimen);
         }
     }
 
-    /// Fits views to a stone if it reaches out of them or is small in them; returns whether it did.
-    pub fn settle(&mut self, specimen: &Arc<Specimen>) -> bool {
-        let is_same = Arc::ptr_eq(&self.fitted, specimen);
-        let reach = |specimen: &Specimen| specimen.reach;
-        let (fitted, present) = (reach(&self.fitted), reach(specimen));
-        let fits = is_same || (present <= OUTGROWN * fitted && present >= SHRUNK * fitted);
-        if !fits {
-            *self = Self::new(specimen);
+    fn settle_scene(&mut self, document: &Document) -> bool {
+        match &mut self.scene {
+            Some(scene) if !document.work.companions.is_empty() => scene.settle(document),
+            scene => {
+                let had_one = scene.is_some();
+                *scene = FittedScene::of(document);
+                scene.is_some() || had_one
+            }
         }
-        !fits
+    }
+
+    /// Returns whether a stone reaches out of the views or is small in them.
+    fn has_outgrown(&self, specimen: &Arc<Specimen>) -> bool {
+        let (fitted, present) = (self.fitted.reach, specimen.reach);
+        let fits = present <= OUTGROWN * fitted && present >= SHRUNK * fitted;
+        !Arc::ptr_eq(&self.fitted, specimen) && !fits
     }
 
     /// Returns the part of the image plane that a view of the fitted stone takes in.
@@ -216,7 +265,8 @@ mod tests {
         let mut framing = Framing::new(&half_round(1.0));
         let fit = framing.fit(&Eye::default().view(None));
         for (reach, is_anew) in [(1.02, false), (0.7, false), (1.3, true), (0.6, true)] {
-            assert_eq!(framing.settle(&half_round(reach)), is_anew, "{reach}");
+            let document = Document::new(half_round(reach).design.clone(), None).unwrap();
+            assert_eq!(framing.settle(&document), is_anew, "{reach}");
             let is_same = framing.fit(&Eye::default().view(None)) == fit;
             assert_eq!(is_same, !is_anew, "{reach}");
         }

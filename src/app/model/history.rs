@@ -35,6 +35,11 @@ impl<T: Clone + PartialEq> History<T> {
         self.present.clone_from(now);
     }
 
+    /// Returns all states, to be written in another way without a new step.
+    pub fn each_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.past.iter_mut().chain([&mut self.present]).chain(&mut self.future)
+    }
+
     /// Returns the last state that was settled.
     pub fn present(&self) -> &T {
         &self.present

@@ -15,6 +15,8 @@ pub struct Problem {
 #[derive(Debug, Clone, Default)]
 pub struct Notes {
     said: Option<String>,
+    /// True where the note belongs to what was done last.
+    is_fresh: bool,
     troubles: Vec<Problem>,
     /// True where all errors and warnings are listed, and not only the last.
     pub is_open: bool,
@@ -26,7 +28,15 @@ const MOST: usize = 50;
 impl Notes {
     /// Shows a note that the user need not dismiss.
     pub fn say(&mut self, what: &str) {
-        self.said = Some(what.to_owned());
+        (self.said, self.is_fresh) = (Some(what.to_owned()), true);
+    }
+
+    /// Ends what was done last: a note of what was done before it is no longer true where the work has `changed` since.
+    pub fn settle(&mut self, changed: bool) {
+        if changed && !self.is_fresh {
+            self.said = None;
+        }
+        self.is_fresh = false;
     }
 
     /// Reports an error; it stays until it is dismissed.

@@ -57,7 +57,7 @@ impl Orders<'_> {
         let view = eye.view(Some(Side::Table));
         let Some(specimen) = self.model.stone(which) else { return };
         let document = self.model.session.begun;
-        let figures = FiguresOrder { document, specimen, view, head: self.model.document.work.head };
+        let figures = FiguresOrder { document, specimen, view, head: self.model.document.work.settings.head };
         if which == Which::Present {
             order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..figures.clone() });
         }
@@ -67,14 +67,15 @@ impl Orders<'_> {
     /// Returns the shot of a view; `None` where the studio does not make its picture, or where the picture is too
     /// small.
     pub fn shot(&mut self, pane: usize, which: Which, size: [u32; 2]) -> Option<Shot> {
-        let Model { workspace, session, .. } = self.model;
+        let Model { document, workspace, session } = self.model;
+        let settings = &document.work.settings;
         let shows = workspace.panes[pane].shows;
         let is_other_pane = shows.is_pane() && which == Which::Other;
         if shows == Shows::Profile || is_other_pane || size[0] < 8 || size[1] < 8 {
             return None;
         }
         let eye = *workspace.eye(pane);
-        let view = workspace.view(pane);
+        let view = self.model.view(pane);
         let fit = self.model.fit(shows, &view);
         let specimen = self.model.stone(which)?;
         if shows == Shows::Diagram && specimen.stone().is_err() {
@@ -89,9 +90,9 @@ impl Orders<'_> {
             film: eye.film(size, &fit),
             whole: fit.whole(size),
             // Renders show three bands while the key for a comparison with three bands is held.
-            bands: if session.keys.three { 3 } else { workspace.wavelengths },
+            bands: if session.keys.three { 3 } else { settings.wavelengths },
             jitter: !session.keys.three,
-            smoothing: workspace.smoothing,
+            smoothing: settings.smoothing,
             overlay: workspace.overlay().filter(|_| shows.takes_overlay()),
             paper: self.paper,
             marks: match (shows, which) {
@@ -117,12 +118,13 @@ impl Orders<'_> {
     /// Returns a shot of one stone at rest, with the light and the backplate of the model.
     fn plain(&self, shows: Shows, view: View, specimen: Arc<Specimen>) -> Shot {
         let Model { document, workspace, session } = self.model;
+        let settings = &document.work.settings;
         let fit = super::framing::FramingFit::reaching(1.0);
         Shot {
             document: session.begun,
             marks: DrawnMarks::default(),
             specimen,
-            title: document.work.design.name.clone(),
+            title: document.name().to_owned(),
             shows,
             strongest: workspace.strongest,
             glare: workspace.glare(),
@@ -130,22 +132,22 @@ impl Orders<'_> {
             film: fit.film([1, 1]),
             whole: fit.whole([1, 1]),
             light: Arc::clone(&session.light.lighting),
-            exposure: document.work.exposure,
-            bands: workspace.wavelengths,
+            exposure: settings.exposure,
+            bands: settings.wavelengths,
             jitter: true,
-            behind: workspace.background(),
-            distance: workspace.behind_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
-            strength: workspace.strength(),
-            glow: workspace.glow,
-            bounces: workspace.bounces,
-            light_turn: workspace.light_turn,
-            light_upright: workspace.light_upright,
+            behind: settings.background(),
+            distance: settings.background_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
+            strength: settings.strength(),
+            glow: settings.glow,
+            bounces: settings.bounces,
+            light_turn: settings.light_turn,
+            light_upright: settings.light_upright,
             copies: vec![Pose::STILL],
             companions: Companions::default(),
             smoothing: Smoothing::None,
-            head: document.work.head,
+            head: settings.head,
             overlay: None,
-            liquid: workspace.liquid,
+            liquid: self.model.liquid(),
             paper: Paper::default(),
         }
     }

@@ -23,7 +23,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
         file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
         name => name,
     };
-    let reach = (!model.is_alone()).then(|| model.reach(Shows::Render));
+    let room = model.room();
     let selection = session.selection.clone();
     let (folder, stem) = (document.folder().join("out"), document.stem());
     let sheet_files = vec![];
@@ -33,7 +33,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
         upright,
         linked,
         own,
-        reach,
+        room,
         selection,
         movement,
         light,
@@ -59,7 +59,7 @@ fn aspects(model: &Model) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
     for pane in panes {
         let shows = workspace.panes[pane].shows;
         if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
-            own.push((shows, PictureAspect { view: workspace.view(pane), turn: workspace.eye(pane).turn }));
+            own.push((shows, PictureAspect { view: model.view(pane), turn: workspace.eye(pane).turn }));
         }
     }
     let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);
@@ -77,12 +77,14 @@ mod tests {
     use crate::app::model::update;
     use crate::app::model::workspace::Workspace;
     use crate::io::export::OutputFormat;
-    use crate::scene::Side;
+    use crate::scene::{Copies, Side};
 
     #[test]
     fn a_plate_alone_is_exported_in_the_phase_and_the_frame_in_which_it_is_shown() {
         let mut model = Model::new(Workspace::default()).unwrap();
         update(&mut model, FileAction::Ask(Then::Library("plate".to_owned())).into());
+        model.document.work.copies = Copies::default();
+        model.workspace.begin_views();
         let at_rest = export_plan(&model).shot(Shows::Render, 64);
         model.session.motion = Motion::at(0.7);
         let plan = export_plan(&model);

@@ -1,6 +1,7 @@
 //! Scenes that the editor can work on: copies of one design with their companions, light and backplate.
 
-use crate::cut::{Design, MaterialRef};
+use super::render_settings::RenderSettings;
+use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::assembly::{Assembly, StonePlace};
 use crate::io::scene_file::{self, RingEntry, SceneFile};
 use crate::io::{Failure, FileError, library};
@@ -9,6 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A scene of glass that comes with the program.
+#[derive(Debug)]
 pub struct Known {
     /// The name by which [`Preset::of_library`] finds the scene.
     pub name: &'static str,
@@ -21,13 +23,21 @@ pub struct Known {
 }
 
 /// All scenes of glass that come with the program, in menu order.
-pub const PRESETS: [Known; 5] = [
+pub static PRESETS: [Known; 5] = [
     Known { name: "subtle-pill", title: "Subtle pill", moves: false, wavelengths: 8 },
     Known { name: "prism-rainbow", title: "Prism rainbow", moves: false, wavelengths: 16 },
     Known { name: "rotating-cube", title: "Rotating cube", moves: true, wavelengths: 16 },
     Known { name: "wavy-plate", title: "Wavy plate", moves: true, wavelengths: 16 },
     Known { name: "free-diamond", title: "Free diamond", moves: true, wavelengths: 16 },
 ];
+
+impl Known {
+    /// Returns whether a scene is this one, whatever file it was read from.
+    fn is(&self, scene: &SceneFile) -> bool {
+        let text = library::scene(self.name).unwrap_or_default();
+        scene_file::parse(text, self.name, None).is_ok_and(|own| own == *scene)
+    }
+}
 
 /// A scene that the editor can work on.
 #[derive(Debug, Clone)]
@@ -38,8 +48,8 @@ pub struct Preset {
     pub copies: Copies,
     /// All other stones, and the metal, in mm.
     pub companions: Companions,
-    /// The number of bands of wavelengths in the scene's renders; `None` where the scene states none.
-    pub wavelengths: Option<u32>,
+    /// The scene that comes with the program and that this is, if any.
+    pub known: Option<&'static Known>,
     /// Notes and warnings about the files that were read.
     pub remarks: Vec<String>,
     /// The scene file, which holds light, background and all other settings.
@@ -54,9 +64,27 @@ impl Preset {
     pub fn of_library(name: &str) -> Result<Self, Failure> {
         let text = library::scene(name)
             .ok_or_else(|| FileError::new(name, "no scene of this name comes with the program"))?;
-        let wavelengths = PRESETS.iter().find(|known| known.name == name).map(|known| known.wavelengths);
-        let scene = scene_file::parse(text, name, None)?;
-        Ok(Self { wavelengths, ..Self::new(Path::new(name), scene)? })
+        Self::new(Path::new(name), scene_file::parse(text, name, None)?)
+    }
+
+    /// Returns the scene that shows a shape of glass at its best; `None` for any other cut.
+    pub fn of_glass(cut: &Cut) -> Option<Self> {
+        let Cut::Glass(_) = cut else { return None };
+        let family = cut.family()?;
+        let presets = PRESETS.iter().filter_map(|known| Self::of_library(known.name).ok());
+        let is_of_family =
+            |preset: &Self| preset.design.cut.family().is_some_and(|own| own.key == family.key);
+        presets.into_iter().find(is_of_family)
+    }
+
+    /// Returns the settings of pictures of the scene.
+    pub fn settings(&self) -> RenderSettings {
+        RenderSettings::of_scene(&self.scene, self.known.map(|known| known.wavelengths))
+    }
+
+    /// Returns whether the scene begins to move at once.
+    pub fn moves(&self) -> bool {
+        self.known.is_some_and(|known| known.moves)
     }
 
     /// Reads a scene file.
@@ -100,11 +128,8 @@ impl Preset {
         copies.movement = scene.movement;
         let companions =
             with_ring(Companions { stones, metals, ring: None }, &scene, seats, (&design, &copies))?;
-        if !companions.is_empty() {
-            let across = companions.across() / unit_mm;
-            copies.room = Some(copies.reach(first.specimen.reach).max(across));
-        }
-        Ok(Self { copies, companions, design, scene, remarks, wavelengths: None })
+        let known = PRESETS.iter().find(|known| known.is(&scene));
+        Ok(Self { copies, companions, design, scene, remarks, known })
     }
 }
 
@@ -167,7 +192,7 @@ mod tests {
 
     #[test]
     fn the_presets_are_as_their_files_say_and_no_copy_is_put_behind_another() {
-        for Known { name, moves, .. } in PRESETS {
+        for Known { name, moves, .. } in &PRESETS {
             let preset = Preset::of_library(name).unwrap();
             let specimen = Specimen::new(preset.design.clone()).unwrap();
             let corners = specimen.solid().vertices();
@@ -180,7 +205,7 @@ mod tests {
                 let stay = moving.iter().zip(&preset.copies.poses).all(|(now, rest)| now.at == rest.at);
                 assert!(stay || !moves, "{name} has no room to move");
             }
-            assert_eq!(preset.copies.poses.len(), if name == "free-diamond" { 1 } else { 4 });
+            assert_eq!(preset.copies.poses.len(), if *name == "free-diamond" { 1 } else { 4 });
         }
         let pill = Preset::of_library("subtle-pill").unwrap();
         assert_eq!((pill.design.diameter_mm, pill.scene.strength), (40.0, 0.035));

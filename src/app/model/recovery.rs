@@ -1,5 +1,7 @@
 //! Unsaved work that is kept on disk, and work that a crash left there.
 
+use super::render_settings::RenderSettings;
+use super::view_history::ViewState;
 use super::work::{ReadMesh, Work};
 use crate::cut::Design;
 use crate::io::{Failure, cut_file};
@@ -66,14 +68,12 @@ pub struct KeptScene {
     /// The companions of the copies; autosaves of earlier versions have none.
     #[serde(default)]
     pub companions: KeptCompanions,
-    /// The backplate: `light`, the name of a pattern, or the file of a picture.
+    /// The settings of pictures; autosaves of earlier versions have none.
     #[serde(default)]
-    pub behind: Option<String>,
-    /// The distance of the backplate behind the middle, mm, if it was set.
-    pub behind_mm: Option<f64>,
-    /// The strength of refraction, 0 to 1.
+    pub settings: RenderSettings,
+    /// The views, where they were kept.
     #[serde(default)]
-    pub strength: Option<f64>,
+    pub views: Option<ViewState>,
 }
 
 /// The content of an autosave.
@@ -88,7 +88,7 @@ pub struct UnsavedWork {
     pub replaces: Option<PathBuf>,
 }
 
-/// Work that was recovered after a crash.
+/// Work that is found when the program starts: left by a crash, or open when the program ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecoveredWork {
     pub design: Design,

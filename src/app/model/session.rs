@@ -5,7 +5,7 @@ use super::choosing::Purpose;
 use super::compare::Compared;
 use super::cut_search::CutSearch;
 use super::dialog::{Dialog, Then};
-use super::document::{Document, FIRST_LIGHT};
+use super::document::Document;
 use super::export::Selection;
 use super::figures::SessionFigures;
 use super::framing::Framing;
@@ -15,6 +15,8 @@ use super::meet_pick::MeetPick;
 use super::motion::Motion;
 use super::notes::Notes;
 use super::opening::Opening;
+use super::recovery::RecoveredWork;
+use super::render_settings::FIRST_LIGHT;
 use super::saving::Stamp;
 use super::view_history::ViewHistory;
 use super::work::Work;
@@ -22,6 +24,7 @@ use super::workspace::Workspace;
 use crate::app::studio::Order;
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
+use crate::picture::liquid_glass::LightFrom;
 use crate::scene::RingPlan;
 use glam::DVec2;
 use std::path::PathBuf;
@@ -102,6 +105,10 @@ pub struct SafeWork {
     pub noted: Work,
     /// The autosave file of a crash that this work went on from; it is removed once the work is kept, saved or discarded.
     pub replaces: Option<PathBuf>,
+    /// The work that was last kept for the next start, with its saved design.
+    pub last: Option<Work>,
+    /// The work of the last run, whose file is being opened.
+    pub restoring: Option<Box<RecoveredWork>>,
 }
 
 /// Everything that ends with the window.
@@ -124,6 +131,8 @@ pub struct Session {
     pub motion: Motion,
     /// The motion of the background in each view of a refraction map.
     pub flowing: [Flowing; 4],
+    /// The direction of the light of a pane of liquid glass, where it follows the pointer or time.
+    pub liquid_light: Option<LightFrom>,
     /// The view in which a copy is dragged, and the number of that copy.
     pub held: Option<(usize, usize)>,
     /// The key of the proportion that was last edited in the panel.
@@ -181,7 +190,7 @@ impl Session {
     pub fn new(document: &Document, workspace: &Workspace) -> Result<Self, Failure> {
         let first = Lighting::load(FIRST_LIGHT)?;
         Ok(Self {
-            framing: Framing::new(document.specimen()),
+            framing: Framing::of(document),
             views: ViewHistory::new(workspace),
             light: LoadedLight {
                 name: FIRST_LIGHT.to_owned(),
@@ -195,6 +204,7 @@ impl Session {
             followed: FollowedRay::default(),
             motion: Motion::default(),
             flowing: Default::default(),
+            liquid_light: None,
             held: None,
             edited: None,
             tier: None,
@@ -217,7 +227,14 @@ impl Session {
             awaited: Awaited::default(),
             begun: 0,
             after_save: None,
-            safe: SafeWork { is_on: false, is_kept: false, noted: document.work.clone(), replaces: None },
+            safe: SafeWork {
+                is_on: false,
+                is_kept: false,
+                noted: document.work.clone(),
+                replaces: None,
+                last: None,
+                restoring: None,
+            },
             on_disk: None,
             watched: None,
             may_close: false,

@@ -24,6 +24,8 @@ pub enum Task {
     ChooseFile(Question),
     /// Write unsaved work to the autosave.
     Keep(Box<UnsavedWork>),
+    /// Keep the present work for the next start.
+    KeepLast(Box<UnsavedWork>),
     /// Remove the autosave.
     EmptySafe,
     /// Remove an autosave file that a crash left behind.

@@ -4,12 +4,13 @@
 use crate::app::model::eye::Eye;
 use crate::app::model::history::History;
 use crate::app::model::workspace::{Pane, PaneLayout, Workspace};
+use serde::{Deserialize, Serialize};
 
 /// Changes closer together than this, seconds, are one step: turns of the wheel, keys held down.
 const PAUSE: f64 = 0.5;
 
 /// Everything that one step of the views restores.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ViewState {
     layout: PaneLayout,
     panes: [Pane; 4],
@@ -23,13 +24,15 @@ pub struct ViewState {
 }
 
 impl ViewState {
-    fn of(workspace: &Workspace) -> Self {
+    /// Returns the views of a workspace as they are.
+    pub fn of(workspace: &Workspace) -> Self {
         let Workspace { layout, panes, large, eye, distance, strongest, glare, is_split, .. } = *workspace;
         let overlay = workspace.overlay.clone();
         Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split }
     }
 
-    fn lay(self, workspace: &mut Workspace) {
+    /// Brings these views back into a workspace.
+    pub fn lay(self, workspace: &mut Workspace) {
         let Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split } = self;
         (workspace.layout, workspace.panes, workspace.large, workspace.eye) = (layout, panes, large, eye);
         (workspace.distance, workspace.strongest, workspace.glare) = (distance, strongest, glare);
@@ -50,6 +53,15 @@ impl ViewHistory {
     pub fn new(workspace: &Workspace) -> Self {
         let state = ViewState::of(workspace);
         Self { history: History::new(state.clone()), last: (state, 0.0) }
+    }
+
+    /// Writes the lengths of all states in another unit, of which `factor` make one of the unit before.
+    pub fn in_unit(&mut self, factor: f64) {
+        for state in self.history.each_mut().chain([&mut self.last.0]) {
+            state.distance *= factor;
+            let own = state.panes.iter_mut().filter_map(|pane| pane.own.as_mut());
+            own.chain([&mut state.eye]).for_each(|eye| eye.centre *= factor);
+        }
     }
 
     /// Records the workspace between two gestures, at the time `now`, seconds.

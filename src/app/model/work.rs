@@ -1,5 +1,6 @@
 //! The user's work: everything that undo restores.
 
+use super::render_settings::RenderSettings;
 use crate::cut::Design;
 use crate::io::mesh_options::MeshOptions;
 use crate::scene::{Companions, Copies};
@@ -14,16 +15,14 @@ pub struct Work {
     pub copies: Copies,
     /// The stones of other designs and the metal in renders, in mm.
     pub companions: Companions,
-    /// The name of the light, or its file.
-    pub light: String,
-    /// The exposure of renders, in stops.
-    pub exposure: f64,
-    /// The half angle of the observer's head in ASET and figures, degrees; 0 for none.
-    pub head: f64,
+    /// The light, the background, and all other settings of pictures.
+    pub settings: RenderSettings,
     /// The mesh file that the stone was read from, if it was one.
     pub mesh: Option<ReadMesh>,
     /// The warnings and notes about the file, in words.
     pub remarks: Arc<[String]>,
+    /// The number of the [`DocumentOrigin`](super::document_origin::DocumentOrigin) of the design in its document.
+    pub origin: usize,
 }
 
 /// A mesh file, and the options by which it was read.
@@ -31,6 +30,8 @@ pub struct Work {
 pub struct ReadMesh {
     pub path: PathBuf,
     pub options: MeshOptions,
+    /// How each solid of the file is called, where it has several.
+    pub parts: Vec<String>,
     /// True where the shape does not show clearly which way the table faces.
     pub is_doubtful: bool,
     /// The diameter of the stone when it was read, mm.

@@ -6,6 +6,7 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::panels::rows::explain;
 use crate::cut::{Audit, Finding, FindingKind};
+use crate::math::fixed;
 use egui::{Button, Panel, RichText, ScrollArea, Ui};
 use glam::DVec3;
 
@@ -133,14 +134,12 @@ fn names(facets: &[String]) -> String {
 /// Describes where a point of the stone lies, in mm and degrees.
 fn place(at: DVec3) -> String {
     let out = at.truncate().length();
-    // Rounded first, so that a tiny negative number does not show as -0.00.
-    let round = |value: f64| (100.0 * value).round() / 100.0 + 0.0;
-    let height = round(at.z);
+    let height = fixed(at.z, 2);
     if out < ON_AXIS_MM {
-        return format!(", on the axis at height {height:.2} mm");
+        return format!(", on the axis at height {height} mm");
     }
     let azimuth = (10.0 * at.y.atan2(at.x).to_degrees().rem_euclid(360.0)).round() / 10.0 % 360.0;
-    format!(", at {azimuth:.1}°, {:.2} mm from the axis, height {height:.2} mm", round(out))
+    format!(", at {azimuth:.1}°, {} mm from the axis, height {height} mm", fixed(out, 2))
 }
 
 #[cfg(test)]

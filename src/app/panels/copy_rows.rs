@@ -5,9 +5,12 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
 use crate::app::model::command::Command;
 use crate::app::model::dialog::Then;
+use crate::app::model::document::Document;
 use crate::app::model::motion::Motion;
 use crate::app::model::preset::{Known, PRESETS};
-use crate::app::panels::rows::{ANY, NUMBER, Row, choice_row, control_width, field_width, named, skip_name};
+use crate::app::model::render_settings::SettingChange;
+use crate::app::model::workspace::Workspace;
+use crate::app::panels::rows::{ANY, ChoiceRow, NUMBER, Row, control_width, field_width, named, skip_name};
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
 use crate::scene::{MOST_COPIES, Movement, has_wave};
@@ -20,10 +23,10 @@ const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
 /// Draws a button for each scene of glass that comes with the program; a click begins that scene.
 pub fn presets(actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
-        for Known { name, title, .. } in PRESETS {
+        for Known { name, title, .. } in &PRESETS {
             let meaning = "Starts this scene with its own shape, material, copies, light and background.";
-            if ui.small_button(title).on_hover_text(meaning).clicked() {
-                actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
+            if ui.small_button(*title).on_hover_text(meaning).clicked() {
+                actions.push(FileAction::Ask(Then::Preset((*name).to_owned())));
             }
         }
     });
@@ -33,14 +36,14 @@ pub fn presets(actions: &mut Actions, ui: &mut Ui) {
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     if model.can_move() {
         let count = model.document.work.copies.poses.len();
-        copies(count, actions, ui);
+        copies(model, actions, ui);
         motion(model.session.motion, actions, ui);
         if has_wave(&model.document.work.design.cut) {
-            movement(model.document.work.copies.movement, actions, ui);
+            movement(&model.document, actions, ui);
         }
         scatter(count, actions, ui);
     }
-    smoothing(model.workspace.smoothing, actions, ui);
+    smoothing(&model.document, actions, ui);
     view_angle(model, actions, ui);
 }
 
@@ -80,15 +83,19 @@ fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
 }
 
 /// Draws the row for how plates with a wave move.
-fn movement(before: Movement, actions: &mut Actions, ui: &mut Ui) {
+fn movement(document: &Document, actions: &mut Actions, ui: &mut Ui) {
+    let (before, first) = (document.work.copies.movement, document.laid().0.movement);
     let mut movement = before;
     let meaning =
         "How plates move in renders: they tumble while their waves run, tumble alone, or wave alone.";
     let all = [(Movement::Both, "tumble and wave"), (Movement::Tumble, "tumble"), (Movement::Wave, "wave")];
-    let name = all.iter().find(|(each, _)| *each == before).map_or("", |(_, name)| name);
-    choice_row(ui, "Movement", meaning, name, |ui| {
+    let name = |movement| all.iter().find(|(each, _)| *each == movement).map_or("", |(_, name)| name);
+    let is_reset = ChoiceRow::new("Movement", meaning, name(before)).by_default(name(first)).show(ui, |ui| {
         all.into_iter().for_each(|(each, name)| drop(ui.selectable_value(&mut movement, each, name)));
     });
+    if is_reset {
+        movement = first;
+    }
     actions.push_changed(&before, movement, Edit::Movement);
 }
 
@@ -101,22 +108,29 @@ fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         return;
     }
     let degrees = 2.0 * (reach / workspace.distance).atan().to_degrees();
-    let meaning = "The angle of view in perspective. P switches to parallel rays.";
+    let meaning =
+        "The angle of view in perspective. P switches to parallel rays, and Backspace undoes a change of it.";
     let row = Row::new("View angle", meaning, ANGLES);
     let distance = |degrees: f64| ViewAction::Distance(reach / (0.5 * degrees).to_radians().tan());
-    Row { decimals: 1, speed: 0.2, unit: "°", ..row }.edit(ui, actions, degrees, distance);
+    let first = 2.0 * (reach / Workspace::default().distance).atan().to_degrees();
+    let row = Row { decimals: 1, speed: 0.2, unit: "°", ..row }.by_default(first);
+    row.edit(ui, actions, degrees, distance);
 }
 
-fn copies(before: usize, actions: &mut Actions, ui: &mut Ui) {
+fn copies(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let before = model.document.work.copies.poses.len();
+    let first = model.document.laid().0.poses.len();
     let (mut count, most) = (before as f64, MOST_COPIES as f64);
     let meaning = "The number of copies in renders. Light that leaves one copy can enter another. Drag a copy in a \
         render to move it; Space scatters all of them anew.";
     let row = Row::new("Copies", meaning, 1.0..=most);
-    Row { limits: ANY, step: 1.0, decimals: 0, speed: 0.05, ..row }.show(ui, &mut count);
+    let row = Row { limits: ANY, step: 1.0, decimals: 0, speed: 0.05, ..row }.by_default(first as f64);
+    row.show(ui, &mut count);
     actions.push_changed(&before, count.round().clamp(1.0, most) as usize, Edit::LayOut);
 }
 
-fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
+fn smoothing(document: &Document, actions: &mut Actions, ui: &mut Ui) {
+    let (before, first) = (document.work.settings.smoothing, document.first_settings().smoothing);
     let mut smoothing = before;
     let meaning = "How the edges of renders are smoothed while anything moves: not at all, in each picture (FXAA), or \
         over time (temporal). A still picture is smoothed by its many samples of each pixel.";
@@ -126,14 +140,21 @@ fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
     };
     let all =
         [(Smoothing::None, "none"), (Smoothing::Fxaa, "FXAA"), (Smoothing::Temporal { newest }, "temporal")];
-    let name = all.iter().find(|(each, _)| *each == before).map_or("", |(_, name)| name);
-    choice_row(ui, "Smoothing", meaning, name, |ui| {
-        all.into_iter().for_each(|(each, name)| drop(ui.selectable_value(&mut smoothing, each, name)));
-    });
+    let is_kind = |a: Smoothing, b: Smoothing| std::mem::discriminant(&a) == std::mem::discriminant(&b);
+    let name = |wanted| all.iter().find(|(each, _)| is_kind(*each, wanted)).map_or("", |(_, name)| name);
+    let is_reset =
+        ChoiceRow::new("Smoothing", meaning, name(before)).by_default(name(first)).show(ui, |ui| {
+            all.into_iter().for_each(|(each, name)| drop(ui.selectable_value(&mut smoothing, each, name)));
+        });
+    if is_reset {
+        smoothing = first;
+    }
     if let Smoothing::Temporal { newest } = &mut smoothing {
         let meaning = "The share of the newest picture. A smaller share is smoother, but follows a change more \
             slowly.";
-        Row { speed: 0.01, ..Row::new("Newest part", meaning, Smoothing::NEWEST) }.show(ui, newest);
+        let row = Row { speed: 0.01, ..Row::new("Newest part", meaning, Smoothing::NEWEST) };
+        row.by_default(Smoothing::USUAL_NEWEST).show(ui, newest);
     }
-    actions.push_changed(&before, smoothing, ViewAction::Smoothing);
+    let set = |smoothing| Edit::Setting(SettingChange::Smoothing(smoothing));
+    actions.push_changed(&before, smoothing, set);
 }

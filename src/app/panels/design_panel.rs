@@ -6,14 +6,15 @@ use crate::app::model::command::Command;
 use crate::app::model::document::Document;
 use crate::app::model::impossible::{self, RowMessage};
 use crate::app::model::workspace::PanelSide;
-use crate::app::panels::rows::{ANY, Row, explain, field_width, named, wrong};
+use crate::app::panels::row_focus;
+use crate::app::panels::rows::{ANY, FilledRow, Row, explain, field_width, named, wrong};
 use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
+use crate::math::fixed;
 use crate::scene::{Copies, SpecimenError};
 use egui::{
-    Button, Panel, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo,
-    pos2, vec2,
+    Button, Panel, Rect, RichText, Role, ScrollArea, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -108,7 +109,7 @@ fn proportions(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let said = impossible(model);
     let is_name = matches!(document.fault(), Some(SpecimenError::Design(DesignError::Name)));
     let is_possible = is_name || document.fault().is_none();
-    let changed = proportion_rows((&document.work.design, is_possible), said.as_ref(), ui);
+    let changed = proportion_rows(document, is_possible, said.as_ref(), ui);
     changed.into_iter().for_each(|edit| actions.push(edit));
     if matches!(document.work.design.cut, Cut::Tiers(_) | Cut::Planes(_)) {
         tier_rows::show(document, actions, ui);
@@ -122,17 +123,22 @@ fn proportions(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the rows for the proportions of the family of a cut, if it has one; returns the user's edit. Numbers that follow
 /// from impossible proportions are not shown.
 fn proportion_rows(
-    (design, is_possible): (&Design, bool),
+    document: &Document,
+    is_possible: bool,
     said: Option<&RowMessage>,
     ui: &mut Ui,
 ) -> Option<Edit> {
+    let design = &document.work.design;
+    let first = &document.saved().cut;
+    let is_of_family = first.family().map(|own| own.key) == design.cut.family().map(|own| own.key);
     // A cut without a family may hold a mesh, which is not copied for nothing.
     design.cut.family()?;
     let is_graded = is_graded(design);
     let (mut cut, mut edited) = (design.cut.clone(), None);
     let (given, follow): (Vec<_>, Vec<_>) = cut.proportions().iter().partition(|row| row.can_be_set());
     for proportion in given {
-        if row(ui, proportion, &mut cut, is_graded) {
+        let default = is_of_family.then(|| (proportion.get)(first));
+        if row(ui, (proportion, default), &mut cut, is_graded) {
             edited = Some(proportion.key);
         }
         if let Some(said) = said.filter(|said| said.row == proportion) {
@@ -189,18 +195,21 @@ fn warnings(document: &Document, ui: &mut Ui) {
 }
 
 /// Draws one proportion: name, slider and number, and for one of a pair a padlock; where GIA grades it, also the
-/// range of the grade Excellent. Returns whether the user changed it.
-fn row(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut, is_graded: bool) -> bool {
-    let Proportion { name, unit, usual: [first, last], step, speed, .. } = *proportion;
+/// range of the grade Excellent. A double click sets it to `first`. Returns whether the user changed it.
+fn row(ui: &mut Ui, (proportion, first): (&Proportion, Option<f64>), cut: &mut Cut, is_graded: bool) -> bool {
+    let Proportion { name, unit, usual: [least, most], step, speed, .. } = *proportion;
     ui.horizontal(|ui| {
         let mut value = (proportion.get)(cut);
         let before = value;
         let mark = ui.painter().add(egui::Shape::Noop);
         let decimals = if unit == Unit::Count { 0 } else { 2 };
         let (meaning, unit) = (range(proportion, is_graded), unit.to_string());
-        let row = Row::new(name, &meaning, first..=last);
-        let row = Row { limits: ANY, step, decimals, speed, unit: &unit, ..row };
-        let slider = row.fill(ui, &mut value);
+        let row = Row::new(name, &meaning, least..=most);
+        let row = Row { limits: ANY, step, decimals, speed, unit: &unit, default: first, ..row };
+        let known = ui.make_persistent_id(("number of", proportion.key));
+        let is_held = proportion.pair.is_some() && row_focus::takes_space(ui, known);
+        let FilledRow { slider, number } = row.fill(ui, &mut value);
+        ui.data_mut(|data| data.insert_temp(known, number));
         if let Some(good) = proportion.excellent.filter(|_| is_graded) {
             let band = band(slider, good, proportion.usual);
             let colour = theme::good(ui.visuals()).gamma_multiply(0.75);
@@ -210,7 +219,7 @@ fn row(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut, is_graded: bool) -> 
         if is_changed {
             proportion.set(cut, value);
         }
-        hold(ui, proportion, cut);
+        hold(ui, proportion, cut, is_held);
         is_changed
     })
     .inner
@@ -234,7 +243,7 @@ fn range(proportion: &Proportion, is_graded: bool) -> String {
     }
 }
 
-fn hold(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut) {
+fn hold(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut, is_asked: bool) {
     if proportion.pair.is_none() {
         return;
     }
@@ -242,15 +251,16 @@ fn hold(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut) {
     let meaning = if held {
         "Held: this number stays when other proportions change."
     } else {
-        "Hold this number when other proportions change."
+        "Hold this number when other proportions change. Space in its field does the same."
     };
     let side = ui.spacing().interact_size.y;
-    let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(side, side), row_focus::passed_over(ui));
+    row_focus::part(&response);
     lock(ui, rect, held, &response);
     let response = explain(ui, response, meaning);
     let name = format!("Hold {}", proportion.name.to_lowercase());
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, held, &name));
-    if response.clicked() && !held {
+    if (response.clicked() || is_asked) && !held {
         proportion.hold(cut);
     }
 }
@@ -289,7 +299,7 @@ fn derived(ui: &mut Ui, rows: &[&Proportion], cut: &Cut, is_graded: bool) {
             let value = (row.get)(cut);
             let text = match row.nothing.filter(|_| value <= 0.0) {
                 Some(word) => word.to_owned(),
-                None => format!("{value:6.2}{}", row.unit),
+                None => format!("{:>6}{}", fixed(value, 2), row.unit),
             };
             let is_excellent =
                 is_graded && row.excellent.is_some_and(|[least, most]| (least..=most).contains(&value));

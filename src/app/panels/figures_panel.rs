@@ -9,6 +9,7 @@ use crate::app::panels::rows::explain;
 use crate::app::panels::{figures_text, pane_rows, side_panels, tilt_plot};
 use crate::app::studio::{Tilts, Which};
 use crate::app::theme;
+use crate::math::signed;
 use crate::scene::Glare;
 use egui::{Align, Button, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotPoint, PlotPoints};
@@ -19,7 +20,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
     Panel::right("figures").resizable(true).default_size(280.0).size_range(widths).show(ui, |ui| {
         side_panels::head(actions, ui, PanelSide::Figures);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            pane_rows::show(&model.workspace, actions, ui);
+            pane_rows::show(model, actions, ui);
             ui.add_space(8.0);
             let whole = ui.scope(|ui| {
                 figures(model, actions, ui);
@@ -139,7 +140,7 @@ fn row(ui: &mut Ui, row: &FigureLine) {
     }
     let number = match (row.other, row.difference()) {
         (None, _) => format!("{percent:.2} %"),
-        (Some(_), Some(difference)) => format!("{percent:.1} ({:+.1})", 100.0 * difference),
+        (Some(_), Some(difference)) => format!("{percent:.1} ({})", signed(100.0 * difference, 1)),
         (Some(_), None) => format!("{percent:.1} (…)"),
     };
     for (text, layout) in

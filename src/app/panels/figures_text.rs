@@ -5,6 +5,7 @@ use crate::app::model::eye::Eye;
 use crate::app::model::figures::ShownFigures;
 use crate::app::panels::figure_lines::{Counting, FigureLine, energy, lines, zones};
 use crate::app::studio::{Grade, Tilts, Which};
+use crate::math::{fixed, signed};
 use crate::scene::Glare;
 use std::fmt::Write as _;
 
@@ -39,7 +40,7 @@ pub fn view(eye: &Eye) -> String {
     let what = if eye.eye_leans { "eye" } else { "stone" };
     match tilt == 0.0 {
         true => "Table side, face up".to_owned(),
-        false => format!("Table side, {what} tilted {tilt:.1}° toward {azimuth:.0}°"),
+        false => format!("Table side, {what} tilted {}° toward {}°", fixed(tilt, 1), fixed(azimuth, 0)),
     }
 }
 
@@ -85,7 +86,7 @@ fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
         let _ = match (line.other, line.difference()) {
             (None, _) => writeln!(text, "{name:<14}{percent:>8.3} %"),
             (Some(_), Some(difference)) => {
-                writeln!(text, "{name:<14}{percent:>8.3} % ({:+.3})", 100.0 * difference)
+                writeln!(text, "{name:<14}{percent:>8.3} % ({})", signed(100.0 * difference, 3))
             }
             (Some(_), None) => writeln!(text, "{name:<14}{percent:>8.3} % (…)"),
         };

@@ -180,7 +180,7 @@ fn weight(measure: &mut GoalMeasure, (row, head): (usize, Id), ui: &mut Ui) {
     let mut size = measure.weight.abs();
     ui.add_enabled_ui(measure.weight != 0.0, |ui| {
         let range = if measure.weight == 0.0 { ANY } else { WEIGHTS };
-        let number = Number { decimals: 2, speed: 0.01, range, unit: "" };
+        let number = Number { decimals: 2, speed: 0.01, range, unit: "", default: None };
         let shown = number.show(ui, (WIDTHS[2], head), &mut size);
         spoken(&shown, &format!("Weight {row}"));
     });
@@ -227,7 +227,8 @@ fn numbers(numbers: &mut [NumberChoice], ui: &mut Ui) {
             ui.label(number.written(number.value));
             for (end, name, head) in [(0, "Least", heads[2]), (1, "Greatest", heads[3])] {
                 ui.add_enabled_ui(number.is_varied, |ui| {
-                    let field = Number { decimals: 2, speed: 0.05, range: ANY, unit: number.unit };
+                    let field =
+                        Number { decimals: 2, speed: 0.05, range: ANY, unit: number.unit, default: None };
                     let shown = field.show(ui, (END, head), &mut number.ends[end]);
                     spoken(&shown, &format!("{name} {}", number.name));
                 });

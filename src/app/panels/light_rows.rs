@@ -1,11 +1,11 @@
 //! Rows for the light of renders, the backplate behind the stone, and the observer's head.
 
 use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
+use crate::app::model::action::{Actions, Edit, FileAction};
 use crate::app::model::choosing::Purpose;
 use crate::app::model::command::Command;
-use crate::app::model::workspace::{WAVELENGTHS, Workspace};
-use crate::app::panels::rows::{Row, choice_row, colour_row};
+use crate::app::model::render_settings::{RenderSettings, SettingChange, WAVELENGTHS};
+use crate::app::panels::rows::{ChoiceRow, Row, colour_row, field_width, skip_name};
 use crate::app::studio::BEHIND;
 use crate::io::background::BackgroundRef;
 use crate::picture::{Background, light_picture};
@@ -36,51 +36,83 @@ const BOUNCES: RangeInclusive<f64> = 1.0..=USUAL_BOUNCES as f64;
 
 /// Draws the rows.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
-    let (work, workspace) = (&model.document.work, &model.workspace);
-    light_row(&work.light, actions, ui);
+    let (now, first) = (&model.document.work.settings, model.document.first_settings());
+    light_row(now, first, actions, ui);
     let meaning = "The angle by which the light of renders is turned about its axis.";
     let turn = Row { step: 1.0, decimals: 1, unit: "°", ..Row::new("Light turn", meaning, TURNS) };
-    turn.edit(ui, actions, workspace.light_turn, ViewAction::LightTurn);
-    let mut upright = workspace.light_upright;
-    let meaning = "Where the axis of the light points in renders: to the eye, as a sky over a stone that lies on its culet, or \
-        up, so that a panorama's horizon lies level behind the stone. The worlds sunset, room and city stand upright in \
-        any case.";
-    let names = ["to the eye", "up"];
-    choice_row(ui, "Light axis", meaning, names[usize::from(upright)], |ui| {
-        ui.selectable_value(&mut upright, false, names[0]);
-        ui.selectable_value(&mut upright, true, names[1]);
-    });
-    actions.push_changed(&workspace.light_upright, upright, ViewAction::LightUpright);
+    let turn = turn.by_default(first.light_turn);
+    turn.edit(ui, actions, now.light_turn, set(SettingChange::LightTurn));
+    light_axis(now, first, actions, ui);
     let meaning = "The brightness of renders, in stops. One stop more is twice the light.";
     let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
-    exposure.edit(ui, actions, work.exposure, Edit::Exposure);
-    let mut count = workspace.wavelengths;
-    let meaning = "The number of bands of wavelengths into which renders split light. With few, a rainbow breaks \
-        into steps of colour; hold Z to see three.";
-    choice_row(ui, "Wavelengths", meaning, &count.to_string(), |ui| {
-        WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(&mut count, n, n.to_string())));
-    });
-    actions.push_changed(&workspace.wavelengths, count, ViewAction::Wavelengths);
+    let exposure = exposure.by_default(first.exposure);
+    exposure.edit(ui, actions, now.exposure, set(SettingChange::Exposure));
+    wavelengths(now, first, actions, ui);
     let meaning = "How much of the light of sparkles spreads around them in renders, as in an eye or a lens; 0 for none. A rough \
         picture has none.";
-    let glow = Row { step: 0.01, decimals: 2, ..Row::new("Glow", meaning, GLOWS) };
-    glow.edit(ui, actions, workspace.glow, ViewAction::Glow);
+    let glow = Row { step: 0.01, decimals: 2, ..Row::new("Glow", meaning, GLOWS) }.by_default(first.glow);
+    glow.edit(ui, actions, now.glow, set(SettingChange::Glow));
     let meaning = "The number of bounces inside the stone after which renders follow light no farther. Raise it from 1 to \
         see what each bounce adds; light that is left is dark.";
     let bounces = Row { step: 1.0, decimals: 0, ..Row::new("Most bounces", meaning, BOUNCES) };
-    let counted = |bounces: f64| ViewAction::Bounces(bounces.round() as u32);
-    bounces.edit(ui, actions, f64::from(workspace.bounces), counted);
-    behind(workspace, actions, ui);
-    let background = workspace.background();
-    if let Some(BackgroundRef::Plain(colours)) = background {
+    let bounces = bounces.by_default(f64::from(first.bounces));
+    let counted = |bounces: f64| Edit::Setting(SettingChange::Bounces(bounces.round() as u32));
+    bounces.edit(ui, actions, f64::from(now.bounces), counted);
+    behind(now, first, actions, ui);
+    if let Some(BackgroundRef::Plain(colours)) = now.background() {
         plain_colours(colours, actions, ui);
-    } else if workspace.behind.is_some() {
-        behind_how(workspace, model.document.specimen().unit_mm(), actions, ui);
+    } else if now.background.is_some() {
+        behind_how(model, actions, ui);
     }
     let meaning =
         "Half angle of the observer's head, which blocks light in the ASET and in figures; 0 for none.";
     let head = Row { step: 0.1, decimals: 1, unit: "°", ..Row::new("Head", meaning, HEADS) };
-    head.edit(ui, actions, work.head, Edit::Head);
+    head.by_default(first.head).edit(ui, actions, now.head, set(SettingChange::Head));
+    reset(now, first, actions, ui);
+}
+
+/// Returns the edit that a change of one of the settings makes.
+fn set<T>(change: impl FnOnce(T) -> SettingChange) -> impl FnOnce(T) -> Edit {
+    |value| Edit::Setting(change(value))
+}
+
+fn light_axis(now: &RenderSettings, first: &RenderSettings, actions: &mut Actions, ui: &mut Ui) {
+    let mut upright = now.light_upright;
+    let meaning = "Where the axis of the light points in renders: to the eye, as a sky over a stone that lies on its culet, or \
+        up, so that a panorama's horizon lies level behind the stone. The worlds sunset, room and city stand upright in \
+        any case.";
+    let name = |is_upright| if is_upright { "up" } else { "to the eye" };
+    let row = ChoiceRow::new("Light axis", meaning, name(upright)).by_default(name(first.light_upright));
+    let is_reset = row.show(ui, |ui| {
+        [false, true].into_iter().for_each(|each| drop(ui.selectable_value(&mut upright, each, name(each))));
+    });
+    let upright = if is_reset { first.light_upright } else { upright };
+    actions.push_changed(&now.light_upright, upright, set(SettingChange::LightUpright));
+}
+
+fn wavelengths(now: &RenderSettings, first: &RenderSettings, actions: &mut Actions, ui: &mut Ui) {
+    let mut count = now.wavelengths;
+    let meaning = "The number of bands of wavelengths into which renders split light. With few, a rainbow breaks \
+        into steps of colour; hold Z to see three.";
+    let (present, usual) = (count.to_string(), first.wavelengths.to_string());
+    let is_reset = ChoiceRow::new("Wavelengths", meaning, &present).by_default(&usual).show(ui, |ui| {
+        WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(&mut count, n, n.to_string())));
+    });
+    let count = if is_reset { first.wavelengths } else { count };
+    actions.push_changed(&now.wavelengths, count, set(SettingChange::Wavelengths));
+}
+
+/// Draws the button that resets all rows of the light.
+fn reset(now: &RenderSettings, first: &RenderSettings, actions: &mut Actions, ui: &mut Ui) {
+    let mut reset = now.clone();
+    reset.reset_light(first);
+    ui.horizontal(|ui| {
+        skip_name(ui);
+        let size = vec2(field_width(ui), ui.spacing().interact_size.y);
+        let button = Button::new(Command::ResetLight.name()).min_size(size);
+        let button = ui.add_enabled(reset != *now, button);
+        actions.push_if(button.on_hover_text(Command::ResetLight.meaning()).clicked(), Command::ResetLight);
+    });
 }
 
 /// Returns the name of a file without its folders; any other name unchanged.
@@ -108,17 +140,20 @@ fn light_thumbnail(ui: &Ui, name: &str) -> Image<'static> {
 }
 
 /// Draws the row of lights.
-fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
-    choice_row(ui, "Light", "The light around the stone in renders.", &short(present), |ui| {
+fn light_row(now: &RenderSettings, first: &RenderSettings, actions: &mut Actions, ui: &mut Ui) {
+    let (present, usual) = (short(&now.light), short(&first.light));
+    let row = ChoiceRow::new("Light", "The light around the stone in renders.", &present).by_default(&usual);
+    let mut chosen = now.light.clone();
+    let is_reset = row.show(ui, |ui| {
         if ui.button("Another at random").on_hover_text(Command::AnotherLight.meaning()).clicked() {
             actions.push(Command::AnotherLight);
         }
         for name in LIGHTS {
             let about = light(name).map_or(String::new(), |light| light.description);
             let picture = light_thumbnail(ui, name);
-            let entry = ui.add(Button::selectable(present == name, (picture, name)));
+            let entry = ui.add(Button::selectable(now.light == name, (picture, name)));
             if entry.on_hover_text(about).clicked() {
-                actions.push(Edit::Light(name.to_owned()));
+                name.clone_into(&mut chosen);
             }
         }
         let file = ui.button("From a file…");
@@ -126,14 +161,31 @@ fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
             actions.push(FileAction::Choose(Purpose::Light));
         }
     });
+    let chosen = if is_reset { first.light.clone() } else { chosen };
+    actions.push_changed(&now.light, chosen, set(SettingChange::Light));
 }
 
-/// Draws the row of backplates behind the stone in renders.
-fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
-    let mut behind = workspace.behind.clone();
+/// Returns the words for a background.
+fn background_name(background: Option<&str>) -> Cow<'_, str> {
+    let plain = |name| {
+        BackgroundRef::read(name, Path::new("")).ok().filter(|it| matches!(it, BackgroundRef::Plain(_)))
+    };
+    match background {
+        None => "nothing".into(),
+        Some(name) => match plain(name) {
+            Some(BackgroundRef::Plain(Background::Gradient { .. })) => "two colours".into(),
+            Some(_) => "one colour".into(),
+            None => short(name),
+        },
+    }
+}
+
+/// Draws the row of backgrounds behind the stone in renders.
+fn behind(now: &RenderSettings, first: &RenderSettings, actions: &mut Actions, ui: &mut Ui) {
+    let mut behind = now.background.clone();
     let meaning = "The background of renders. Each ray shows the point of the background that it meets.";
-    let present = workspace.behind.as_deref().map_or("nothing".into(), short);
-    choice_row(ui, "Background", meaning, &present, |ui| {
+    let [present, usual] = [now, first].map(|settings| background_name(settings.background.as_deref()));
+    let is_reset = ChoiceRow::new("Background", meaning, &present).by_default(&usual).show(ui, |ui| {
         ui.selectable_value(&mut behind, None, "nothing");
         ui.selectable_value(&mut behind, Some("light".to_owned()), "light")
             .on_hover_text("The light itself, for example a panorama.");
@@ -141,7 +193,7 @@ fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
             ui.selectable_value(&mut behind, Some(name.to_owned()), name);
         }
         for (name, colours) in [("one colour", ONE_COLOUR), ("two colours", TWO_COLOURS)] {
-            let is_chosen = is_plain(workspace.background(), colours);
+            let is_chosen = is_plain(now.background(), colours);
             if ui.selectable_label(is_chosen, name).clicked() && !is_chosen {
                 behind = Some(colours.to_string());
             }
@@ -150,7 +202,8 @@ fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
             actions.push(FileAction::Choose(Purpose::Behind));
         }
     });
-    actions.push_changed(&workspace.behind, behind, ViewAction::Behind);
+    let behind = if is_reset { first.background.clone() } else { behind };
+    actions.push_changed(&now.background, behind, set(SettingChange::Background));
 }
 
 /// The colour with which a background of one colour begins: that of light grey paper.
@@ -171,35 +224,45 @@ fn plain_colours(before: Background, actions: &mut Actions, ui: &mut Ui) {
     match &mut now {
         Background::Transparent => {}
         Background::Plain(colour) => {
-            picker(ui, ("Back colour", "The colour of the background of renders."), colour);
+            let Background::Plain(usual) = ONE_COLOUR else { return };
+            picker(ui, ("Back colour", "The colour of the background of renders."), colour, usual);
         }
         Background::Gradient { top, bottom } => {
-            picker(ui, ("Upper colour", "The colour at the upper border of renders."), top);
-            picker(ui, ("Lower colour", "The colour at the lower border of renders."), bottom);
+            let Background::Gradient { top: upper, bottom: lower } = TWO_COLOURS else { return };
+            picker(ui, ("Upper colour", "The colour at the upper border of renders."), top, upper);
+            picker(ui, ("Lower colour", "The colour at the lower border of renders."), bottom, lower);
         }
     }
-    actions.push_changed(&before, now, |colours| ViewAction::Behind(Some(colours.to_string())));
+    let set = |colours: Background| Edit::Setting(SettingChange::Background(Some(colours.to_string())));
+    actions.push_changed(&before, now, set);
 }
 
 /// Draws a row with a picker for one of the colours.
-fn picker(ui: &mut Ui, row: (&str, &str), colour: &mut [f32; 3]) {
-    if let Some(picked) = colour_row(ui, row, colour.map(f64::from)) {
+fn picker(ui: &mut Ui, row: (&str, &str), colour: &mut [f32; 3], usual: [f32; 3]) {
+    if let Some(picked) = colour_row(ui, row, colour.map(f64::from), Some(usual.map(f64::from))) {
         *colour = picked.map(|part| part as f32);
     }
 }
 
-/// Draws the rows for the backplate's distance and the strength of refraction.
-fn behind_how(workspace: &Workspace, unit_mm: f64, actions: &mut Actions, ui: &mut Ui) {
-    if workspace.behind.as_deref() != Some("light") {
-        let mm = workspace.behind_mm.unwrap_or(BEHIND * unit_mm);
+/// Draws the rows for the background's distance and the strength of refraction.
+fn behind_how(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let (now, first) = (&model.document.work.settings, model.document.first_settings());
+    let unit_mm = model.document.specimen().unit_mm();
+    if now.background.as_deref() != Some("light") {
+        // A distance that is not set grows with the stone.
+        let mm = |settings: &RenderSettings| settings.background_mm.unwrap_or(BEHIND * unit_mm);
         let about = "Distance of the background behind the middle of the scene. It is never nearer than the stones \
             reach.";
         let row = Row::new("Distance", about, 0.0..=20.0 * unit_mm);
         let row = Row { limits: 0.0..=f64::INFINITY, step: 0.1, decimals: 1, unit: " mm", ..row };
-        row.edit(ui, actions, mm, ViewAction::BehindMm);
+        let set = |set: f64| {
+            let is_first = set == mm(first);
+            Edit::Setting(SettingChange::BackgroundMm(if is_first { first.background_mm } else { Some(set) }))
+        };
+        row.by_default(mm(first)).edit(ui, actions, mm(now), set);
     }
     let meaning = "The strength of refraction. 1 is physics. A smaller number mixes the refracted ray with the \
         straight ray, which designers use for its looks.";
-    let row = Row::new("Strength", meaning, STRENGTHS);
-    Row { step: 0.005, decimals: 3, ..row }.edit(ui, actions, workspace.strength, ViewAction::Strength);
+    let row = Row { step: 0.005, decimals: 3, ..Row::new("Strength", meaning, STRENGTHS) };
+    row.by_default(first.strength).edit(ui, actions, now.strength, set(SettingChange::Strength));
 }

@@ -1,16 +1,17 @@
 //! The window with the map of a measure: the choices of measure and axes, the map, and the values under the pointer.
 
 use super::map_plot::{MapPlot, MapReading};
-use super::rows::{ANY, NUMBER, Number, choice_row, named};
+use super::rows::{ANY, ChoiceRow, NUMBER, Number, named};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
+use crate::app::scrolled::scrolled;
 use crate::cut::{Cut, Design};
 use crate::measure::measure_words;
 use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.
-const SIZES: [Vec2; 2] = [vec2(560.0, 600.0), vec2(420.0, 440.0)];
+const SIZES: [Vec2; 2] = [vec2(560.0, 600.0), vec2(420.0, 260.0)];
 
 /// The first place of the window's upper left corner, points: right of the design panel, whose fields it does not
 /// cover.
@@ -30,7 +31,14 @@ pub fn show(model: &Model, actions: &mut Actions, ctx: &Context) {
         .default_size(SIZES[0])
         .min_size(SIZES[1])
         .default_pos(PLACE);
-    window.show(ctx, |ui| contents(model, actions, ui));
+    window.show(ctx, |ui| {
+        let room = ui.available_height();
+        scrolled(ui, "map", room, |ui| {
+            // The map takes what is left of the room, and no less than a map needs.
+            ui.set_max_height(room);
+            contents(model, actions, ui);
+        });
+    });
     actions.push_if(!is_open, crate::app::model::command::Command::Map);
 }
 
@@ -60,7 +68,7 @@ fn contents(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
     let meaning = measure_words::meaning(options.measure);
     let before = options.measure;
-    choice_row(ui, "Measure", meaning, &measure_words::name(before), |ui| {
+    ChoiceRow::new("Measure", meaning, &measure_words::name(before)).show(ui, |ui| {
         for measure in measure_words::all() {
             let entry = ui.selectable_value(&mut options.measure, measure, measure_words::name(measure));
             entry.on_hover_text(measure_words::meaning(measure));
@@ -75,7 +83,7 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
         let other = options.axes[1 - place].clone();
         let axis = &mut options.axes[place];
         let meaning = "The number that varies along this axis. Where one number follows from another, only one of them can vary.";
-        choice_row(ui, name, meaning, &axis.name.clone(), |ui| {
+        ChoiceRow::new(name, meaning, &axis.name.clone()).show(ui, |ui| {
             for offered in all.iter().filter(|offered| !offered.is_paired(&other, cut)) {
                 if ui.selectable_label(offered.key == axis.key, &offered.name).clicked()
                     && offered.key != axis.key
@@ -91,7 +99,7 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
             ];
             for (end, (name, meaning)) in axis.ends.iter_mut().zip(ends) {
                 let label = named(ui, name, meaning);
-                let number = Number { decimals: 2, speed: 0.05, range: ANY, unit: axis.unit };
+                let number = Number { decimals: 2, speed: 0.05, range: ANY, unit: axis.unit, default: None };
                 number.show(ui, (NUMBER, label.id), end);
             }
         });

@@ -16,6 +16,8 @@ pub mod material_rows;
 pub mod mesh_rows;
 pub mod pane_rows;
 mod ring_rows;
+mod row_default;
+pub mod row_focus;
 pub mod rows;
 mod scale_fields;
 pub mod scene_rows;

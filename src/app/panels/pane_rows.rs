@@ -1,9 +1,11 @@
 //! Rows for the pane of liquid glass, which appear while a view shows it.
 
 use crate::app::liquid::{LightMotion, Liquid};
-use crate::app::model::action::{Actions, ViewAction};
-use crate::app::model::workspace::Workspace;
-use crate::app::panels::rows::{NUMBER, Row, control_width, named};
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit};
+use crate::app::model::render_settings::SettingChange;
+use crate::app::panels::row_focus;
+use crate::app::panels::rows::{ChoiceRow, NUMBER, Row, control_width, explain, named_with_reset};
 use crate::app::shows::Shows;
 use crate::picture::liquid_glass::PaneQuality;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
@@ -39,7 +41,8 @@ const QUALITIES: [(PaneQuality, &str, &str); 3] = [
 ];
 
 /// Draws the rows, where liquid glass is in sight.
-pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let workspace = &model.workspace;
     let is_seen = |shows| workspace.shown().iter().any(|&pane| workspace.panes[pane].shows == shows);
     let [drawn, traced] = [Shows::LiquidGlass, Shows::TracedPane].map(is_seen);
     if !drawn && !traced {
@@ -50,30 +53,59 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
         "A pane in front of the background: drawn by five formulas as screens do it, or traced as real glass. \
             Strengths run from 0 to 100.",
     );
-    let mut liquid = workspace.liquid;
-    shape_rows(&mut liquid, ui);
+    let before = model.document.work.settings.liquid;
+    let first = model.document.first_settings().liquid;
+    let mut liquid = before;
+    shape_rows(&mut liquid, &first, ui);
     if traced {
         let meaning =
             "The distance from the traced pane to the background, in parts of the pane's shorter side.";
         let row = Row::new("Gap", meaning, GAPS);
-        Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, &mut liquid.gap);
+        let row = Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row };
+        row.by_default(first.gap).show(ui, &mut liquid.gap);
     }
-    light_rows(&mut liquid, ui);
-    tint_and_quality_rows(&mut liquid, ui);
-    actions.push_changed(&workspace.liquid, liquid, ViewAction::Liquid);
+    light_rows(&mut liquid, &first, ui);
+    if liquid.light_motion == LightMotion::Fixed && before.light_motion != LightMotion::Fixed {
+        // The light stays where it has come to.
+        liquid.light_from = model.liquid().light_from;
+    }
+    tint_and_quality_rows(&mut liquid, &first, ui);
+    actions.push_changed(&before, liquid, |liquid| Edit::Setting(SettingChange::Liquid(Box::new(liquid))));
 }
 
 /// Draws the rows for the pane's size and the strengths of its effects.
-fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
+fn shape_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
     let Liquid { size, corners, refraction, depth, dispersion, frost, light, .. } = liquid;
-    for (name, meaning, value, range, unit) in [
-        ("Pane width", "The width of the pane, in percent of the view.", &mut size.x, EXTENTS, " %"),
-        ("Pane height", "The height of the pane, in percent of the view.", &mut size.y, EXTENTS, " %"),
-        ("Corners", "The radius of its corners, in percent of its shorter side.", corners, CORNERS, " %"),
+    for (name, meaning, value, usual, range, unit) in [
+        (
+            "Pane width",
+            "The width of the pane, in percent of the view.",
+            &mut size.x,
+            first.size.x,
+            EXTENTS,
+            " %",
+        ),
+        (
+            "Pane height",
+            "The height of the pane, in percent of the view.",
+            &mut size.y,
+            first.size.y,
+            EXTENTS,
+            " %",
+        ),
+        (
+            "Corners",
+            "The radius of its corners, in percent of its shorter side.",
+            corners,
+            first.corners,
+            CORNERS,
+            " %",
+        ),
         (
             "Refraction",
             "Bends the background at the rim. In the traced pane it is the index, 1 to 1.5.",
             refraction,
+            first.refraction,
             STRENGTHS,
             "",
         ),
@@ -81,6 +113,7 @@ fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
             "Pane depth",
             "The depth that the pane seems to have. In the traced pane it is the thickness.",
             depth,
+            first.depth,
             STRENGTHS,
             "",
         ),
@@ -88,6 +121,7 @@ fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
             "Dispersion",
             "Separates red from blue. In the traced pane it sets the Abbe number, 55 at 100.",
             dispersion,
+            first.dispersion,
             STRENGTHS,
             "",
         ),
@@ -95,6 +129,7 @@ fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
             "Frost",
             "Blurs the background toward the rim, unevenly. The traced pane is always clear.",
             frost,
+            first.frost,
             STRENGTHS,
             "",
         ),
@@ -102,61 +137,72 @@ fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
             "Pane light",
             "The strength of shine, shade and rim. Around the traced pane it is the brightness of a lamp and a sky.",
             light,
+            first.light,
             STRENGTHS,
             "",
         ),
     ] {
-        Row { step: 1.0, decimals: 0, speed: 0.2, unit, ..Row::new(name, meaning, range) }.show(ui, value);
+        let row = Row { step: 1.0, decimals: 0, speed: 0.2, unit, ..Row::new(name, meaning, range) };
+        row.by_default(usual).show(ui, value);
     }
 }
 
 /// Draws the rows for the direction of the light.
-fn light_rows(liquid: &mut Liquid, ui: &mut Ui) {
-    ui.horizontal(|ui| {
-        let label =
-            named(ui, "Light follows", "The light of the pane stays, follows the pointer, or goes round.");
-        let chosen = MOTIONS.iter().find(|(m, ..)| *m == liquid.light_motion).map_or("", |(_, name, _)| name);
-        let width = control_width(ui);
-        let combo =
-            ComboBox::from_id_salt("light motion").selected_text(chosen).width(width).show_ui(ui, |ui| {
-                for (motion, name, meaning) in MOTIONS {
-                    ui.selectable_value(&mut liquid.light_motion, motion, name).on_hover_text(meaning);
-                }
-            });
-        combo.response.labelled_by(label.id);
+fn light_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
+    let name = |motion| MOTIONS.iter().find(|(m, ..)| *m == motion).map_or("", |(_, name, _)| name);
+    let meaning = "The light of the pane stays, follows the pointer, or goes round.";
+    let row = ChoiceRow::new("Light follows", meaning, name(liquid.light_motion));
+    let is_reset = row.by_default(name(first.light_motion)).show(ui, |ui| {
+        for (motion, name, meaning) in MOTIONS {
+            ui.selectable_value(&mut liquid.light_motion, motion, name).on_hover_text(meaning);
+        }
     });
+    if is_reset {
+        liquid.light_motion = first.light_motion;
+    }
     if liquid.light_motion != LightMotion::Fixed {
         return;
     }
     let from = &mut liquid.light_from;
-    for (name, meaning, value, range) in [
+    for (name, meaning, value, usual, range) in [
         (
             "Light azimuth",
             "The direction of the light, in degrees counter-clockwise from the right; 90 is above.",
             &mut from.azimuth,
+            first.light_from.azimuth,
             AZIMUTHS,
         ),
         (
             "Light height",
             "The height of the light over the pane, in degrees: 0 along it, 90 from the eye.",
             &mut from.height,
+            first.light_from.height,
             HEIGHTS,
         ),
     ] {
-        Row { step: 1.0, decimals: 0, speed: 0.5, unit: "°", ..Row::new(name, meaning, range) }
-            .show(ui, value);
+        let row = Row { step: 1.0, decimals: 0, speed: 0.5, unit: "°", ..Row::new(name, meaning, range) };
+        row.by_default(usual).show(ui, value);
     }
 }
 
 /// Draws the rows for tint and quality.
-fn tint_and_quality_rows(liquid: &mut Liquid, ui: &mut Ui) {
+fn tint_and_quality_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let meaning = "The colour of the pane. Its alpha says how far it colours the light.";
-        let label = named(ui, "Tint", meaning);
-        ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
+        let (label, is_reset) = named_with_reset(ui, "Tint", meaning);
+        if is_reset {
+            liquid.tint = first.tint;
+        }
+        let button = ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
+        row_focus::part(&button);
+        explain(ui, button, meaning);
     });
     ui.horizontal(|ui| {
-        let label = named(ui, "Quality", "A lower quality draws fewer parts of the effect, in less time.");
+        let meaning = "A lower quality draws fewer parts of the effect, in less time.";
+        let (label, is_reset) = named_with_reset(ui, "Quality", meaning);
+        if is_reset {
+            liquid.quality = first.quality;
+        }
         let chosen = QUALITIES.iter().find(|(q, ..)| *q == liquid.quality).map_or("", |(_, name, _)| name);
         let width = control_width(ui);
         let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(width).show_ui(ui, |ui| {
@@ -164,10 +210,12 @@ fn tint_and_quality_rows(liquid: &mut Liquid, ui: &mut Ui) {
                 ui.selectable_value(&mut liquid.quality, quality, name).on_hover_text(meaning);
             }
         });
-        combo.response.labelled_by(label.id);
+        let combo = combo.response.labelled_by(label.id);
+        row_focus::part(&combo);
+        explain(ui, combo, meaning);
         let reset = ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), Button::new("Reset"));
         if reset.on_hover_text("Resets the pane to its first state.").clicked() {
-            *liquid = Liquid::default();
+            *liquid = *first;
         }
     });
 }

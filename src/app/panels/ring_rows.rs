@@ -2,7 +2,7 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
-use crate::app::panels::rows::{Row, choice_row, wrong};
+use crate::app::panels::rows::{ChoiceRow, Row, wrong};
 use crate::scene::{OuterShape, RING_NUMBERS, Ring, RingNumber, RingStyle};
 use egui::{CollapsingHeader, Ui};
 
@@ -77,7 +77,8 @@ const NUMBERS: [Shown; RING_NUMBERS.len()] = [
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let Some(own) = &model.document.work.companions.ring else { return };
     let mut ring = own.ring.clone();
-    let folded = CollapsingHeader::new("Numbers of the ring").show(ui, |ui| rows(&mut ring, ui));
+    let first = model.document.laid().1.ring.as_ref().map_or(&own.ring, |laid| &laid.ring);
+    let folded = CollapsingHeader::new("Numbers of the ring").show(ui, |ui| rows(&mut ring, first, ui));
     folded.header_response.on_hover_text("Change the ring. Its metal and the places of its stones follow.");
     if let Some(why) = model.ring_fault() {
         wrong(ui, &format!("The metal stays as it was. {}", by_name(why)));
@@ -85,23 +86,31 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     actions.push_changed(&own.ring, ring, |ring| Edit::Ring(Box::new(ring)));
 }
 
-/// Draws the rows of all numbers on which the metal of the ring's style depends.
-fn rows(ring: &mut Ring, ui: &mut Ui) {
+/// Draws the rows of all numbers on which the metal of the ring's style depends; `first` has their defaults.
+fn rows(ring: &mut Ring, first: &Ring, ui: &mut Ui) {
     let holds = |style: RingStyle| (style.prongs() > 0, style.has_small());
     let style = ring.style;
     let meaning = "The style of the ring: those that hold the same kinds of stones can be chosen.";
-    choice_row(ui, "Style", meaning, style.name(), |ui| {
+    let row = ChoiceRow::new("Style", meaning, style.name()).by_default(first.style.name());
+    let is_reset = row.show(ui, |ui| {
         for (name, each) in RingStyle::NAMES.into_iter().filter(|(_, each)| holds(*each) == holds(style)) {
             ui.selectable_value(&mut ring.style, each, name);
         }
     });
+    if is_reset {
+        ring.style = first.style;
+    }
     let meaning = "The shape of the band's outside: half an ellipse, or flat with rounded edges.";
     let name = |shape| if shape == OuterShape::D { "half an ellipse" } else { "flat" };
-    choice_row(ui, "Outside", meaning, name(ring.outside), |ui| {
+    let row = ChoiceRow::new("Outside", meaning, name(ring.outside)).by_default(name(first.outside));
+    let is_reset = row.show(ui, |ui| {
         for (_, each) in OuterShape::NAMES {
             ui.selectable_value(&mut ring.outside, each, name(each));
         }
     });
+    if is_reset {
+        ring.outside = first.outside;
+    }
     for Shown { key, name, meaning } in NUMBERS {
         let number = RING_NUMBERS.iter().find(|number| number.key == key && (number.matters)(style));
         let Some(RingNumber { range: [least, most], unit, get, set, .. }) = number else { continue };
@@ -109,7 +118,7 @@ fn rows(ring: &mut Ring, ui: &mut Ui) {
         let before = get(ring);
         let mut now = before;
         let row = Row::new(name, meaning, *least..=*most);
-        Row { step: 0.01, speed: 0.01, unit, ..row }.show(ui, &mut now);
+        Row { step: 0.01, speed: 0.01, unit, default: Some(get(first)), ..row }.show(ui, &mut now);
         if now != before {
             set(ring, now);
         }

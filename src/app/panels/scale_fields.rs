@@ -56,7 +56,7 @@ pub fn show(model: &Model, tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
             let dragged = ui.data(|data| data.get_temp::<DraggedScale>(id));
             let before = dragged.as_ref().map_or(AS_IT_IS, |dragged| dragged.percent);
             let mut percent = before;
-            let field = Number { decimals: 2, speed: 0.1, range: PERCENT, unit: " %" };
+            let field = Number { decimals: 2, speed: 0.1, range: PERCENT, unit: " %", default: None };
             let field = field.show(ui, (WIDTHS[1], label.id), &mut percent);
             spoken(&field, spoken_name);
             let from = dragged.map_or_else(|| tiers.clone(), |dragged| dragged.from);

@@ -4,7 +4,7 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::export::kinds;
 use crate::app::panels::ring_rows;
-use crate::app::panels::rows::{Row, choice_row, field_width, named};
+use crate::app::panels::rows::{ChoiceRow, Row, field_width, named};
 use crate::cut::{Design, MaterialRef};
 use crate::optics::Metal;
 use crate::scene::MetalInstance;
@@ -40,7 +40,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
             }
         });
     }
-    metal_rows(&work.companions.metals, actions, ui);
+    metal_rows(&work.companions.metals, &model.document.laid().1.metals, actions, ui);
     ring_rows::show(model, actions, ui);
 }
 
@@ -56,7 +56,7 @@ struct MetalGroup<'a> {
 
 /// Draws a list of metals and a row for the roughness for all bodies of one shape and finish. Where there are several such
 /// groups, the names of their rows are numbered.
-fn metal_rows(metals: &[MetalInstance], actions: &mut Actions, ui: &mut Ui) {
+fn metal_rows(metals: &[MetalInstance], laid: &[MetalInstance], actions: &mut Actions, ui: &mut Ui) {
     let mut groups: Vec<MetalGroup> = vec![];
     for (number, body) in metals.iter().enumerate() {
         let is_alike = |first: &MetalInstance| {
@@ -74,15 +74,23 @@ fn metal_rows(metals: &[MetalInstance], actions: &mut Actions, ui: &mut Ui) {
         let text = format!("{}{}", times(bodies.len()), first.label);
         row(ui, &name("Metal body"), "A body of metal, which renders show.", &text, |_| {});
         let (mut metal, mut roughness) = (first.metal, first.roughness);
+        let usual = laid.get(bodies[0]).unwrap_or(first);
         let meaning = "The metal, by its measured colour. Jewellers' alloys look a little paler.";
-        choice_row(ui, &name("Metal"), meaning, metal.name(), |ui| {
+        let row = name("Metal");
+        let row = ChoiceRow::new(&row, meaning, metal.name()).by_default(usual.metal.name());
+        let is_reset = row.show(ui, |ui| {
             Metal::NAMES
                 .into_iter()
                 .for_each(|(name, each)| drop(ui.selectable_value(&mut metal, each, name)));
         });
+        if is_reset {
+            metal = usual.metal;
+        }
         let meaning =
             "The roughness of the metal's surface: 0 is a mirror, 0.1 polished, 0.4 brushed to satin.";
-        Row { step: 0.01, ..Row::new(&name("Roughness"), meaning, ROUGHNESSES) }.show(ui, &mut roughness);
+        let row = name("Roughness");
+        let row = Row { step: 0.01, ..Row::new(&row, meaning, ROUGHNESSES) }.by_default(usual.roughness);
+        row.show(ui, &mut roughness);
         let finish = |(metal, roughness)| Edit::Finish { bodies, metal, roughness };
         actions.push_changed(&(first.metal, first.roughness), (metal, roughness), finish);
     }

@@ -5,6 +5,7 @@ use crate::app::model::Model;
 use crate::app::model::cut_search::SearchReport;
 use crate::app::model::goal_form::NumberChoice;
 use crate::app::theme;
+use crate::math::{fixed, signed};
 use crate::measure::Interval;
 use crate::measure::measure_words;
 use crate::search::MeasureChange;
@@ -62,7 +63,7 @@ fn group(ui: &mut Ui, (name, colour): (&str, Color32), changes: &[MeasureChange]
         for value in [change.before, change.after] {
             right(ui, part(value).into()).on_hover_text(measure_words::value(value));
         }
-        right(ui, RichText::new(format!("{:+.2}", 100.0 * change.by())).color(colour));
+        right(ui, RichText::new(signed(100.0 * change.by(), 2)).color(colour));
         ui.end_row();
     }
 }
@@ -81,17 +82,19 @@ fn numbers(model: &Model, report: &SearchReport, ui: &mut Ui) {
     ui.end_row();
     for (number, &after) in report.numbers.iter().zip(&report.outcome.values) {
         let known = model.session.search.form.numbers.iter().find(|known| known.key == number.key);
-        let written = |value: f64| {
-            known.map_or_else(|| format!("{value:.2}"), |known: &NumberChoice| known.written(value))
-        };
+        let written =
+            |value: f64| known.map_or_else(|| fixed(value, 2), |known: &NumberChoice| known.written(value));
         let name = known.map_or_else(|| number.key.to_string(), |known| known.name.clone());
         let name = format!("{name}{}", number.end_of_range(after));
-        line(ui, &name, [written(number.start), written(after), format!("{:+.2}", after - number.start)]);
+        line(ui, &name, [written(number.start), written(after), signed(after - number.start, 2)]);
     }
     for ((name, before), (_, after)) in report.start.figures.iter().zip(&report.outcome.best.figures) {
-        let texts = [format!("{before:.4}"), format!("{after:.4}"), format!("{:+.4}", after - before)];
+        let texts = [fixed(*before, 4), fixed(*after, 4), signed(after - before, 4)];
         line(ui, name, texts);
     }
+    let [before, after] = report.outcome.audits.each_ref().map(|audit| audit.findings.len());
+    let by = after as i64 - before as i64;
+    line(ui, "findings of the audit", [before.to_string(), after.to_string(), format!("{by:+}")]);
 }
 
 fn line(ui: &mut Ui, name: &str, texts: [String; 3]) {

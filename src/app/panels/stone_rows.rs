@@ -5,7 +5,7 @@ use crate::app::model::action::{Actions, Edit};
 use crate::app::model::extent::Extent;
 use crate::app::panels::material_rows;
 use crate::app::panels::rows::{
-    NOT_KNOWN, NUMBER, Number, UNKNOWN, choice_row, named, number_row, skip_control,
+    ChoiceRow, NOT_KNOWN, NUMBER, Number, UNKNOWN, named, number_row, skip_control,
 };
 use crate::cut::{Cut, Design, MaterialRef, Size};
 use crate::math::rounded;
@@ -26,12 +26,13 @@ const DENSITIES: RangeInclusive<f64> = 0.1..=30.0;
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let specimen = model.document.specimen();
     let design = &model.document.work.design;
-    let chosen = material(design, &specimen.material, ui);
+    let first = model.document.saved();
+    let chosen = material(design, first, &specimen.material, ui);
     let is_unknown = specimen.material.density.is_none();
     let typed = (is_own(&design.material) || is_unknown).then(|| density(&specimen.material, ui)).flatten();
     chosen.or(typed).into_iter().for_each(|material| actions.push(Edit::Material(material)));
-    let across = size(design, model.document.extent(), ui);
-    let weighed = weight(design, specimen.solid().volume(), &specimen.material, ui);
+    let across = size((design, first), model.document.extent(), ui);
+    let weighed = weight((design, first), specimen.solid().volume(), &specimen.material, ui);
     across.or(weighed).into_iter().for_each(|mm| actions.push(Edit::Diameter(mm)));
 }
 
@@ -46,14 +47,20 @@ const ILLUSTRATIVE: &str = "\nIts colour is illustrative: it was chosen to look 
 
 /// Draws a row in which a material of the library is chosen; returns the chosen one if it differs from the present
 /// one.
-pub fn material_choice(ui: &mut Ui, (row, meaning): (&str, &str), now: &MaterialRef) -> Option<MaterialRef> {
+pub fn material_choice(
+    ui: &mut Ui,
+    (row, meaning): (&str, &str),
+    now: &MaterialRef,
+    first: Option<&MaterialRef>,
+) -> Option<MaterialRef> {
     let mut chosen = None;
-    let name = match now {
-        MaterialRef::Name(name) => name.clone(),
-        MaterialRef::Index(index) => format!("index {}", rounded(*index, 4)),
-        MaterialRef::Custom(material) => material.name.clone(),
+    let (name, usual) = (material_name(now), first.map(material_name));
+    let row = ChoiceRow::new(row, meaning, &name);
+    let row = match &usual {
+        Some(usual) => row.by_default(usual),
+        None => row,
     };
-    choice_row(ui, row, meaning, &name, |ui| {
+    let is_reset = row.show(ui, |ui| {
         let mut all: Vec<_> = materials().iter().collect();
         all.sort_by_key(|m| m.name.as_str());
         for material in all {
@@ -71,18 +78,27 @@ pub fn material_choice(ui: &mut Ui, (row, meaning): (&str, &str), now: &Material
             }
         }
     });
-    chosen
+    if is_reset { first.filter(|first| *first != now).cloned() } else { chosen }
+}
+
+/// Returns the name of a material in its row.
+fn material_name(material: &MaterialRef) -> String {
+    match material {
+        MaterialRef::Name(name) => name.clone(),
+        MaterialRef::Index(index) => format!("index {}", rounded(*index, 4)),
+        MaterialRef::Custom(material) => material.name.clone(),
+    }
 }
 
 /// Draws the rows of the material; returns the one that was chosen.
-fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+fn material(design: &Design, first: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
     let meaning = "The material of the stone. It sets refraction, dispersion and colour.";
-    let chosen = material_choice(ui, ("Material", meaning), &design.material);
+    let chosen = material_choice(ui, ("Material", meaning), &design.material, Some(&first.material));
     if known.colour_is_illustrative {
         ui.label(RichText::new("illustrative colour").weak().small())
             .on_hover_text(ILLUSTRATIVE.trim_start());
     }
-    let changed = material_rows::show(design, known, ui);
+    let changed = material_rows::show((design, first), known, ui);
     chosen.or(changed)
 }
 
@@ -92,7 +108,7 @@ fn density(known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
     let mut density = known.density.unwrap_or(NOT_KNOWN);
     let meaning = "The density of the material, from which the weight follows. A material given by an index alone has none; \
             type it here.";
-    let number = Number { decimals: 3, speed: 0.01, range: DENSITIES, unit: " g/cm³" };
+    let number = Number { decimals: 3, speed: 0.01, range: DENSITIES, unit: " g/cm³", default: None };
     number_row(ui, ("Density", meaning), number, &mut density);
     let is_set = density.is_finite() && known.density != Some(density);
     is_set.then(|| MaterialRef::Custom(Box::new(Material { density: Some(density), ..known.clone() })))
@@ -100,12 +116,15 @@ fn density(known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
 
 /// Draws the diameter of a round stone, or length and width of any other; setting one scales the whole stone. Returns the
 /// diameter that was set, mm.
-fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
+fn size((design, first): (&Design, &Design), extent: Extent, ui: &mut Ui) -> Option<f64> {
     let mut diameter = design.diameter_mm;
-    let number = || Number { decimals: 3, speed: 0.01, range: LENGTHS_MM, unit: " mm" };
+    let number = |first_mm| {
+        let default = Some(first_mm);
+        Number { decimals: 3, speed: 0.01, range: LENGTHS_MM, unit: " mm", default }
+    };
     if extent.is_round {
         let meaning = "The diameter of the girdle. A larger coloured stone is darker.";
-        number_row(ui, ("Diameter", meaning), number(), &mut diameter);
+        number_row(ui, ("Diameter", meaning), number(first.diameter_mm), &mut diameter);
         return (diameter != design.diameter_mm).then_some(diameter);
     }
     // The names without a unit belong to the dimensions of glass shapes, which are in percent.
@@ -118,7 +137,7 @@ fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
             format!("The {side} side of the stone, seen from above. A change scales the whole stone.");
         let before = 0.5 * design.diameter_mm * across;
         let mut mm = before;
-        number_row(ui, (name, &meaning), number(), &mut mm);
+        number_row(ui, (name, &meaning), number(0.5 * first.diameter_mm * across), &mut mm);
         if mm != before {
             diameter = 2.0 * mm / across;
         }
@@ -127,10 +146,11 @@ fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
 }
 
 /// Draws the weight; returns the diameter of the stone of the weight that was set, mm.
-fn weight(design: &Design, volume: f64, material: &Material, ui: &mut Ui) -> Option<f64> {
+fn weight((design, first): (&Design, &Design), volume: f64, material: &Material, ui: &mut Ui) -> Option<f64> {
     let meaning =
         "The weight, by the stone's volume and its material's density. A change scales the whole stone.";
-    let known = material.carats(volume * (0.5 * design.diameter_mm).powi(3));
+    let of = |design: &Design| material.carats(volume * (0.5 * design.diameter_mm).powi(3));
+    let known = of(design);
     let Some(mut carats) = known else {
         ui.horizontal(|ui| {
             named(ui, "Weight", meaning);
@@ -142,7 +162,7 @@ fn weight(design: &Design, volume: f64, material: &Material, ui: &mut Ui) -> Opt
         return None;
     };
     let before = carats;
-    let number = Number { decimals: 3, speed: 0.01, range: CARATS, unit: " ct" };
+    let number = Number { decimals: 3, speed: 0.01, range: CARATS, unit: " ct", default: of(first) };
     number_row(ui, ("Weight", meaning), number, &mut carats);
     let is_set = carats != before;
     is_set.then(|| Size::Carats(carats).diameter_mm(volume, material).ok()).flatten()

@@ -43,7 +43,7 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
             let before_mm = distance_mm;
             let fields = [(&mut angle, 2, 0.02, "°"), (&mut distance_mm, 3, 0.002, " mm")];
             for ((value, decimals, speed, unit), head) in fields.into_iter().zip(heads.inner) {
-                let number = Number { decimals, speed, range: ANY, unit };
+                let number = Number { decimals, speed, range: ANY, unit, default: None };
                 number.show(ui, (NUMBER, label.id), value).labelled_by(head);
             }
             // A distance that the user does not touch keeps all its digits.

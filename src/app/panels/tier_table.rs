@@ -48,8 +48,8 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
             heads(ui);
             let seen = ui.make_persistent_id("selected row in sight");
             let is_new = ui.data(|data| data.get_temp::<Option<usize>>(seen)).flatten() != selected;
-            for place in 0..tiers.tiers.len() {
-                let row = row(model, tiers, place, actions, ui);
+            for (place, called) in tiers.names().iter().enumerate() {
+                let row = row(model, tiers, (place, called), actions, ui);
                 if is_new && selected == Some(place) {
                     // The table is wider than its window, and keeps its place across.
                     let across = ui.clip_rect().x_range();
@@ -145,35 +145,40 @@ fn cell<T>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) -> T) -> T {
     shown.inner
 }
 
-/// Draws the row of a tier; returns its place.
-fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &mut Ui) -> egui::Rect {
+/// Draws the row of a tier, which is called by this name; returns its place.
+fn row(
+    model: &Model,
+    tiers: &Tiers,
+    (place, called): (usize, &str),
+    actions: &mut Actions,
+    ui: &mut Ui,
+) -> egui::Rect {
     let tier = &tiers.tiers[place];
-    let called = if tier.name().is_empty() { format!("tier {}", place + 1) } else { tier.name().to_owned() };
     let is_selected = model.session.tier == Some(place);
     let fill =
         if is_selected { ui.visuals().selection.bg_fill.gamma_multiply(0.35) } else { Color32::TRANSPARENT };
     let frame = egui::Frame::new().fill(fill).show(ui, |ui| {
         ui.horizontal(|ui| {
-            let grip = cell(ui, WIDTHS[0], |ui| grip(place, &called, is_selected, ui));
+            let grip = cell(ui, WIDTHS[0], |ui| grip(place, called, is_selected, ui));
             actions.push_if(grip.clicked(), ViewAction::Tier(Some(place)));
             let mut is_cut = tier.is_cut;
             let cut = cell(ui, WIDTHS[1], |ui| ui.checkbox(&mut is_cut, ""));
             spoken(&cut, &format!("Cut {called}"));
             actions.push_if(cut.changed(), Edit::Tiers(TierChange::IsCut(place, is_cut)));
-            let named = text(ui, WIDTHS[2], (place, "Name", &called), tier.name(), |text| {
+            let named = text(ui, WIDTHS[2], (place, "Name", called), called, |text| {
                 Some(TierChange::Name(place, text.trim().to_owned()))
             });
-            let turned = cell(ui, WIDTHS[3], |ui| zone((place, tier, &called), ui));
+            let turned = cell(ui, WIDTHS[3], |ui| zone((place, tier, called), ui));
             named.into_iter().chain(turned).for_each(|change| actions.push(Edit::Tiers(change)));
-            setting(model, (place, tier, &called), grip.id, actions, ui);
-            let meet = meet(model, (place, tiers, &called), actions, ui);
+            setting(model, (place, tier, called), grip.id, actions, ui);
+            let meet = meet(model, (place, tiers, called), actions, ui);
             let indices =
-                text(ui, WIDTHS[7], (place, "Indices", &called), &tier.indices(tiers.gear), |text| {
+                text(ui, WIDTHS[7], (place, "Indices", called), &tier.indices(tiers.gear), |text| {
                     read_indices(text).map(|indices| TierChange::Indices(place, indices))
                 });
-            let frosting = frosting((place, tier, &called), grip.id, ui);
+            let frosting = frosting((place, tier, called), grip.id, ui);
             let instructions =
-                text(ui, WIDTHS[9], (place, "Instructions", &called), &tier.instructions, |text| {
+                text(ui, WIDTHS[9], (place, "Instructions", called), &tier.instructions, |text| {
                     Some(TierChange::Instructions(place, text.to_owned()))
                 });
             let changes = [meet, indices, frosting, instructions].into_iter().flatten();
@@ -258,7 +263,11 @@ fn setting(
         |ui: &mut Ui, value: &mut f64, column: usize, (decimals, speed, unit): (usize, f64, &str)| {
             let width = WIDTHS[column];
             cell(ui, width, |ui| {
-                let shown = Number { decimals, speed, range: ANY, unit }.show(ui, (width - 8.0, grip), value);
+                let shown = Number { decimals, speed, range: ANY, unit, default: None }.show(
+                    ui,
+                    (width - 8.0, grip),
+                    value,
+                );
                 spoken(&shown, &format!("{} of {called}", HEADS[column].0));
             });
         };
@@ -278,7 +287,7 @@ fn setting(
 fn frosting((place, tier, called): (usize, &Tier, &str), grip: Id, ui: &mut Ui) -> Option<TierChange> {
     let (mut frosting, width) = (tier.frosting, WIDTHS[8]);
     cell(ui, width, |ui| {
-        let number = Number { decimals: 2, speed: 0.005, range: FROSTINGS, unit: "" };
+        let number = Number { decimals: 2, speed: 0.005, range: FROSTINGS, unit: "", default: None };
         let shown = number.show(ui, (width - 8.0, grip), &mut frosting);
         spoken(&shown, &format!("Frosting of {called}"));
     });

@@ -1,12 +1,12 @@
 //! The plot against tilt of one measure, toward several azimuths, each with the band in which it certainly lies.
 
-use super::rows::choice_row;
+use super::rows::ChoiceRow;
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
-use crate::measure::measure_words;
+use crate::measure::{Interval, measure_words};
 use egui::{Color32, RichText, Ui};
-use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints, Polygon};
+use egui_plot::{FilledArea, GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints};
 
 /// The colours of the azimuths, which people who see no red or no green can tell apart (B. Wong, Nature Methods 8,
 /// 441 (2011)).
@@ -26,7 +26,7 @@ pub fn choices(options: &TiltOptions, actions: &mut Actions, ui: &mut Ui) {
     let mut now = options.clone();
     let shown = options.measure.map_or_else(|| ZONES.to_owned(), measure_words::name);
     let meaning = options.measure.map_or("The figures above at each tilt.", measure_words::meaning);
-    choice_row(ui, "Plotted", meaning, &shown, |ui| {
+    ChoiceRow::new("Plotted", meaning, &shown).show(ui, |ui| {
         ui.selectable_value(&mut now.measure, None, ZONES);
         for measure in measure_words::all() {
             let entry = ui.selectable_value(&mut now.measure, Some(measure), measure_words::name(measure));
@@ -108,17 +108,48 @@ fn plot(curves: &[(f64, TiltCurve)], ui: &mut Ui) {
         for (azimuth, curve) in curves {
             let place = AZIMUTHS.iter().position(|known| known == azimuth).unwrap_or(0);
             let name = format!("toward {azimuth}°");
-            for pair in curve.windows(2) {
-                let [(a, from), (b, to)] = [pair[0], pair[1]];
-                let corners = [[a, from.least], [b, to.least], [b, to.most], [a, from.most]];
-                let corners = corners.map(|[tilt, part]| [tilt, 100.0 * part]).to_vec();
-                let band = Polygon::new("", PlotPoints::from(corners)).allow_hover(false);
-                let fill = COLOURS[place].gamma_multiply(0.3);
-                plot.polygon(band.fill_color(fill).stroke(egui::Stroke::NONE));
-            }
+            let column = |of: fn(&(f64, Interval)) -> f64| curve.iter().map(of).collect::<Vec<f64>>();
+            let tilts = column(|(tilt, _)| *tilt);
+            let [least, most] =
+                [column(|(_, found)| 100.0 * found.least), column(|(_, found)| 100.0 * found.most)];
+            // Filled without softened borders: those of a band without width would stick out as long spikes.
+            let band = FilledArea::new("", &tilts, &least, &most).allow_hover(false);
+            plot.add(band.fill_color(COLOURS[place].gamma_multiply(0.3)));
             let middles = curve.iter().map(|(tilt, found)| [*tilt, 100.0 * found.middle()]);
             plot.line(Line::new(name, PlotPoints::from_iter(middles)).color(COLOURS[place]).width(1.8));
         }
     });
     shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Measure against tilt"));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::tests::{farthest_outside, single_shapes};
+    use egui_kittest::Harness;
+
+    #[test]
+    fn a_band_of_no_width_has_no_spikes() {
+        let no_width = |middle: f64| Interval { least: middle, most: middle };
+        let curve = |height: f64| -> TiltCurve {
+            (-9..=9)
+                .map(|k| {
+                    let tilt = 5.0 * f64::from(k);
+                    (tilt, no_width(height + 1e-3 * tilt + 1e-6 * tilt * tilt))
+                })
+                .collect()
+        };
+        let curves = vec![(0.0, curve(0.3)), (45.0, curve(0.5))];
+        let mut harness =
+            Harness::builder().with_size(egui::vec2(300.0, 240.0)).build_ui(move |ui| plot(&curves, ui));
+        harness.run_steps(2);
+        let shapes = &harness.output().shapes;
+        let all: Vec<_> = shapes.iter().flat_map(|clipped| single_shapes(&clipped.shape)).collect();
+        let meshes = all.iter().filter(|shape| matches!(shape, egui::Shape::Mesh(_)));
+        assert_eq!(meshes.count(), 2, "each curve has a band");
+        for shape in &all {
+            let beyond = farthest_outside(shape);
+            assert!(beyond < 3.0, "{beyond} points beyond {:?}", shape.visual_bounding_rect());
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::ink::ProfileInks;
 use super::sight::ProfileProjection;
+use crate::app::polygons::{closed_line, fill};
 use crate::app::theme::FOUND;
 use crate::math::{Basis, Facet, hull};
 use crate::picture::DrawnMarks;
@@ -46,7 +47,7 @@ impl<'a> ProfileBody<'a> {
             self.stone.polytope.vertices().iter().map(|&v| self.sight.at(self.basis.project(v))).collect();
         painter.add(self.faces(&corners, inks));
         painter.extend(self.edges(&corners, inks));
-        painter.extend(rounded_line(outline, Stroke::new(OUTLINE, inks.outline)));
+        painter.extend(closed_line(outline, Stroke::new(OUTLINE, inks.outline)));
     }
 
     /// Outlines marked facets, those that face away by a thinner line, and rings marked corners.
@@ -55,23 +56,18 @@ impl<'a> ProfileBody<'a> {
         for facet in marks.facets.iter().filter_map(|place| self.stone.polytope.facets().get(*place)) {
             let corners: Vec<Pos2> = self.stone.polytope.corners(facet).map(place).collect();
             let width = if self.shows(facet) { MARK } else { MARK_BEHIND };
-            painter.add(Shape::closed_line(corners, Stroke::new(width, FOUND)));
+            painter.extend(closed_line(&corners, Stroke::new(width, FOUND)));
         }
         for &corner in &marks.corners {
             painter.circle_stroke(place(corner), RING, Stroke::new(MARK, FOUND));
         }
     }
 
-    /// Returns the facets as triangles without softened borders: those of slivers would stick out as long spikes. Lines
-    /// cover the bare borders.
+    /// Returns the facets as triangles. Lines cover their bare borders.
     fn faces(&self, corners: &[Pos2], inks: &ProfileInks) -> Mesh {
         let mut mesh = Mesh::default();
         for facet in self.stone.polytope.facets().iter().filter(|facet| self.shows(facet)) {
-            let (first, shade) = (mesh.vertices.len() as u32, self.shade(facet, inks));
-            facet.outline.iter().for_each(|&v| mesh.colored_vertex(corners[v as usize], shade));
-            for k in 1..facet.outline.len() as u32 - 1 {
-                mesh.add_triangle(first, first + k, first + k + 1);
-            }
+            fill(&mut mesh, facet.outline.iter().map(|&v| corners[v as usize]), self.shade(facet, inks));
         }
         mesh
     }
@@ -101,14 +97,6 @@ impl<'a> ProfileBody<'a> {
         let facing = facet.plane.normal.dot(self.basis.toward).clamp(0.0, 1.0);
         inks.faces[1].lerp_to_gamma(inks.faces[0], facing as f32)
     }
-}
-
-/// Returns a closed line with round corners: joined lines would stick out at the corner of a knife edge.
-fn rounded_line(corners: &[Pos2], stroke: Stroke) -> Vec<Shape> {
-    let ends = corners.iter().zip(corners.iter().cycle().skip(1));
-    let lines = ends.map(|(&a, &b)| Shape::line_segment([a, b], stroke));
-    let corners = corners.iter().map(|&p| Shape::circle_filled(p, stroke.width / 2.0, stroke.color));
-    lines.chain(corners).collect()
 }
 
 fn stroke(facet: &Facet, beyond: &Facet, inks: &ProfileInks) -> Stroke {

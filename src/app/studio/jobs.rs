@@ -124,6 +124,7 @@ impl Shot {
             places: detail.places,
             shades: detail.shades,
             adapted: true,
+            strength: self.strength,
         };
         let quality = Quality { samples: Some(detail.samples), ..Quality::of_pictures(true) };
         self.job(Product::RefractionMap(product), quality)
@@ -139,6 +140,12 @@ impl Shot {
             compares: false,
         };
         Job::of_pane(product, Quality { samples: Some(samples), ..Quality::of_pictures(true) })
+    }
+
+    /// Returns whether a background hangs behind what a shot shows.
+    pub fn hangs(&self, background: &BackgroundRef) -> bool {
+        self.behind.as_ref() == Some(background)
+            || (self.shows.is_pane() && self.pane_background() == *background)
     }
 
     /// Returns the background of a shot whose picture needs one.

@@ -18,6 +18,8 @@ pub(super) struct Mailbox {
     pub newest: AtomicU64,
     /// True while the studio works.
     pub busy: AtomicBool,
+    /// A word about what pictures wait for, such as a world that is being drawn.
+    pub preparing: Mutex<Option<String>>,
     /// True while passes are added to renders that are already good enough.
     pub sharpens: AtomicBool,
     /// The number of traces of pictures, figures and figures against tilt that have begun.

@@ -3,6 +3,7 @@
 //! A newer order outdates an older one, whose work is dropped. Only the first rough pictures are always finished, so
 //! that some picture always follows the user's hand.
 
+mod backgrounds;
 mod develop;
 mod effort;
 mod jobs;
@@ -22,6 +23,7 @@ pub use order::{
     Tilts, Which,
 };
 
+pub use backgrounds::COARSE_FILM;
 pub use effort::{Effort, FINE, Grain};
 pub use jobs::{BEHIND, SPAN, hung};
 pub use mailbox::Wake;
@@ -91,6 +93,11 @@ impl Studio {
     /// Takes the answers that have come since the last call.
     pub fn answers(&self) -> impl Iterator<Item = Answer> + '_ {
         self.answers.try_iter()
+    }
+
+    /// Returns a word about what the order's pictures wait for; `None` where they wait for nothing.
+    pub fn preparing(&self) -> Option<String> {
+        self.mailbox.preparing.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Returns whether passes are added to renders of the order although all of it is already good enough.

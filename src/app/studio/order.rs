@@ -134,7 +134,7 @@ impl Shot {
         let numbers =
             [self.distance, self.whole.pixel, self.light_turn, upright, self.strength, bounces, self.glow];
         if self.shows == Shows::Refraction {
-            let numbers = [numbers[0], numbers[1], numbers[2], upright, 1.0, 0.0, 0.0];
+            let numbers = [numbers[0], numbers[1], numbers[2], upright, self.strength, 0.0, 0.0];
             return (self.exposure, 0, false, None, numbers, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;

@@ -46,9 +46,11 @@ impl ShotTracer {
         effort: &Effort,
         watch: Watch,
     ) -> Result<TakenPicture, Failure> {
-        let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
-            return Err(Failure::Input("the pane has no background".into()));
-        };
+        let asked = shot.pane_background();
+        let at_hand = self.picture_behind(Some(&asked), effort, watch)?;
+        let made =
+            at_hand.map_or_else(|| self.backgrounds.fine(&asked, watch), |picture| Ok(Some(picture)))?;
+        let Some(behind) = made else { return Err(Failure::Input("the pane has no background".into())) };
         // The processor always traces panes, so they take no more passes than fine renders on it.
         let samples = effort.refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
         let size = coarser(&shot.film, effort.coarser_by_single_rays()).size;

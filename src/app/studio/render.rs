@@ -1,7 +1,7 @@
 //! Traces renders: a body or its copies under a light, in front of a background.
 
 use super::develop::{developed, manner};
-use super::effort::{Effort, Grain, Refinement};
+use super::effort::{Effort, FINE, Grain};
 use super::jobs::coarser;
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
@@ -12,8 +12,8 @@ use crate::io::background::BackgroundRef;
 use crate::io::{Failure, Finish, StoredLight, WriteError};
 use crate::render::{Job, Partial, Quality, RenderError, Steps};
 use crate::scene::Mipmap;
-use crate::trace::Watch;
 use crate::trace::places::place_in_pixel;
+use crate::trace::{Watch, unwatched};
 use egui::ColorImage;
 use glam::DVec2;
 use std::path::Path;
@@ -32,10 +32,10 @@ impl ShotTracer {
             _ => None,
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
-        let mut job = self.light_job(shot, effort, first)?;
+        let mut job = self.light_job(shot, (effort, first), watch)?;
         let (mut grain, mut by_rays) = (effort.grain, false);
         if self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() {
-            job = self.light_job(shot, &effort.by_rays(), first)?;
+            job = self.light_job(shot, (&effort.by_rays(), first), watch)?;
             (grain, by_rays) = (effort.grain_of_rays, true);
         }
         job.film = coarser(&shot.film, grain.coarser);
@@ -72,9 +72,14 @@ impl ShotTracer {
         Ok(())
     }
 
-    fn light_job(&mut self, shot: &Shot, effort: &Effort, first: u32) -> Result<Job, Failure> {
+    fn light_job(
+        &mut self,
+        shot: &Shot,
+        (effort, first): (&Effort, u32),
+        watch: Watch,
+    ) -> Result<Job, Failure> {
         let refinement = effort.refinement;
-        let behind = self.picture_behind(shot.behind.as_ref())?;
+        let behind = self.picture_behind(shot.behind.as_ref(), effort, watch)?;
         let mut quality = Quality::of_pictures(true);
         quality.beams.unresolved = refinement.map_or(effort.unresolved, |r| r.unresolved);
         quality.samples = refinement.map(|r| r.samples);
@@ -94,12 +99,8 @@ impl ShotTracer {
         if shot.shows != Shows::Render {
             return false;
         }
-        let refinement = Some(Refinement { samples: 1, after: 0, unresolved: 1.0 });
-        let job = self.light_job(
-            shot,
-            &Effort { refinement, ..Effort::rough(1.0, Grain { coarser: 1.0, bands: 1 }) },
-            0,
-        );
+        let effort = Effort::rough(1.0, Grain { coarser: 1.0, bands: 1 });
+        let job = self.light_job(shot, (&effort, 0), &unwatched);
         job.is_ok_and(|job| self.renderer.plan(&job).is_ok_and(|plan| plan.backend.is_slow()))
     }
 
@@ -109,7 +110,7 @@ impl ShotTracer {
     /// Fails where the backplate cannot be read, where the renderer refuses the job, where no temporary file holds
     /// the light of a large picture, or where `watch` asks to stop.
     pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, Failure> {
-        let behind = self.picture_behind(shot.behind.as_ref())?;
+        let behind = self.picture_behind(shot.behind.as_ref(), &FINE, watch)?;
         let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
         let mut light = StoredLight::new(job.film.size)?;
         let rendered = self.renderer.run(&job, watch, &mut |part| match part {
@@ -121,18 +122,19 @@ impl ShotTracer {
         Ok(ExportedRender { light, tracer, unresolved })
     }
 
-    /// Returns the picture of a render's backplate, which is read or drawn only when it changes.
+    /// Returns the picture of a render's backplate, which is read or drawn only when it changes. A rough picture takes
+    /// what is at hand, and a refined one waits until the backplate is made.
     pub(super) fn picture_behind(
         &mut self,
         asked: Option<&BackgroundRef>,
+        effort: &Effort,
+        watch: Watch,
     ) -> Result<Option<Arc<Mipmap>>, Failure> {
         let Some(asked) = asked else { return Ok(None) };
-        if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
-            return Ok(Some(Arc::clone(picture)));
+        match effort.is_refined() {
+            true => self.backgrounds.fine(asked, watch),
+            false => self.backgrounds.at_hand(asked),
         }
-        let picture = asked.picture()?.map(|reading| Arc::new(Mipmap::new(reading.panorama)));
-        self.behind = picture.clone().map(|picture| (asked.clone(), picture));
-        Ok(picture)
     }
 }
 

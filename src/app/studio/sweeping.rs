@@ -9,8 +9,11 @@ use crate::trace::{Stopped, Watch};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The number of points that are answered at once: enough for all cores, and few enough to show progress.
+/// The least number of points that are answered at once: few enough to show progress.
 const AT_ONCE: usize = 32;
+
+/// The number of points that are answered at once for each thread, so that none waits long for the last point.
+const A_THREAD: usize = 4;
 
 /// The number of sweeps whose progress is remembered.
 const REMEMBERED: usize = 8;
@@ -42,12 +45,13 @@ impl Worker {
         until: impl Fn(&SweepOrder) -> usize,
         watch: Watch,
     ) -> Result<(), Stopped> {
+        let at_once = AT_ONCE.max(A_THREAD * rayon::current_num_threads());
         for ask in &order.sweeps {
             let end = until(ask).min(ask.points.len());
             let mut answered = self.swept.of(ask.number);
             while answered < end {
                 self.count();
-                let part = &ask.points[answered..(answered + AT_ONCE).min(end)];
+                let part = &ask.points[answered..(answered + at_once).min(end)];
                 let mut found = Vec::with_capacity(part.len());
                 ask.sweep.run::<Stopped>(part.iter().copied(), watch, |point, result| {
                     found.push((point, Arc::new(result)));

@@ -1,5 +1,6 @@
 //! Traces one picture.
 
+use super::backgrounds::Backgrounds;
 use super::develop::{developed, map_taken, overlaid};
 use super::effort::Effort;
 use super::jobs::coarser;
@@ -7,14 +8,11 @@ use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
 use super::undeveloped::{Kept, TracedLight};
 use crate::app::shows::Shows;
-use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
 use crate::picture::{DiagramStyle, Palette, marked_diagram};
 use crate::render::{Card, Partial, RenderError, Renderer};
-use crate::scene::Mipmap;
 use crate::trace::Watch;
 use egui::ColorImage;
-use std::sync::Arc;
 
 /// Traces pictures, and keeps the data that later pictures can use.
 #[derive(Default)]
@@ -23,8 +21,8 @@ pub struct ShotTracer {
     pub(super) renderer: Renderer,
     /// Messages for the user about why the processor does a card's work.
     pub(super) notes: Vec<String>,
-    /// The last picture behind a render.
-    pub(super) behind: Option<(BackgroundRef, Arc<Mipmap>)>,
+    /// The pictures behind renders.
+    pub(super) backgrounds: Backgrounds,
     /// The temporal histories of rough renders of moving bodies.
     pub(super) trails: Trails,
     /// The traced light of each view before it is developed.
@@ -144,6 +142,7 @@ mod tests {
     use crate::app::studio::effort::{Grain, Refinement};
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
+    use crate::io::background::BackgroundRef;
     use crate::io::lighting::Lighting;
     use crate::picture::{Background, Bloom, Develop, develop, fxaa};
     use crate::render::{Quality, Steps};
@@ -152,6 +151,7 @@ mod tests {
     use crate::trace::unwatched;
     use glam::DVec2;
     use std::path::Path;
+    use std::sync::Arc;
 
     fn shot(shows: Shows, distance: Option<f64>) -> Shot {
         let eye = Eye { lean: DVec2::new(0.1, 0.05), ..Eye::default() };

@@ -136,6 +136,8 @@ impl Worker {
         let order = &turn.order;
         self.camera.renderer.begin_round();
         self.camera.kept.retain(|slot, _| order.shots.iter().any(|(wanted, _)| wanted == slot));
+        self.camera.backgrounds.retain(|asked| order.shots.iter().any(|(_, shot)| shot.hangs(asked)));
+        self.say_what_is_prepared();
         let mut any = false;
         for (slot, shot) in &order.shots {
             if self.is_wanted(slot, shot, Grade::Rough) && !self.develop_again((*slot, shot), &watch)? {
@@ -245,6 +247,7 @@ impl Worker {
             wake();
         };
         let taken = self.camera.take((slot, shot), effort, watch, &mut each);
+        self.say_what_is_prepared();
         let notes: Vec<String> = self.camera.notes.drain(..).collect();
         notes.into_iter().for_each(|note| self.answer(Answer::Trouble(note)));
         match taken {
@@ -254,6 +257,17 @@ impl Worker {
         }
         self.pictures.insert(slot, (shot.clone(), grade));
         Ok(())
+    }
+
+    /// Tells the window what pictures wait for.
+    fn say_what_is_prepared(&self) {
+        let preparing = self.camera.backgrounds.preparing();
+        let mut said = self.mailbox.preparing.lock().unwrap_or_else(PoisonError::into_inner);
+        if *said != preparing {
+            *said = preparing;
+            drop(said);
+            (self.wake)();
+        }
     }
 
     fn all_figures(

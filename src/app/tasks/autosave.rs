@@ -2,9 +2,9 @@
 
 use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
 use crate::app::model::work::ReadMesh;
-use crate::cut::from_mesh::Up;
+use crate::cut::from_mesh::{Evening, Up};
 use crate::cut::{Cut, Design};
-use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::io::{WriteError, cut_file, design_file, write};
 use crate::math::Plane;
 use crate::scene::{Copies, MOST_STONES};
@@ -48,6 +48,17 @@ struct KeptMesh {
     /// The direction in which the table faces, if the user gave one.
     up: Option<DVec3>,
     form: MeshForm,
+    /// The unit of the file; autosave files of older versions lack it.
+    #[serde(default)]
+    unit: MeshUnit,
+    /// The solid that was chosen of several, in words; empty for the one that the program finds.
+    #[serde(default)]
+    part: String,
+    #[serde(default)]
+    parts: Vec<String>,
+    /// Whether the facets were evened; autosave files of older versions lack this.
+    #[serde(default)]
+    evening: Evening,
     is_doubtful: bool,
     diameter_mm: f64,
 }
@@ -63,20 +74,28 @@ impl KeptMesh {
                 Up::Found | Up::FoundBy(_) | Up::Known(_) | Up::Posed(_) => None,
             },
             form: mesh.options.form,
+            unit: mesh.options.unit,
+            part: mesh.options.part.to_string(),
+            parts: mesh.parts.clone(),
+            evening: mesh.options.evening,
             is_doubtful: mesh.is_doubtful,
             diameter_mm: mesh.diameter_mm,
         }
     }
 
     fn read_mesh(self) -> ReadMesh {
-        let Self { path, up, form, is_doubtful, diameter_mm } = self;
-        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form };
-        ReadMesh { path, options, is_doubtful, diameter_mm }
+        let Self { path, up, form, unit, part, parts, evening, is_doubtful, diameter_mm } = self;
+        let part = MeshPart::from(part.as_str());
+        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form, unit, part, evening };
+        ReadMesh { path, options, parts, is_doubtful, diameter_mm }
     }
 }
 
 /// The beginning of the names of autosave files.
 const PREFIX: &str = "unsaved-";
+
+/// The name of the file that holds the work with which the next start begins.
+const LAST: &str = "last-work.json";
 
 impl Autosave {
     /// Creates an autosave in a folder; nothing is written yet.
@@ -91,31 +110,30 @@ impl Autosave {
     /// # Errors
     /// Fails where the file cannot be written.
     pub fn keep(&mut self, unsaved: &UnsavedWork) -> Result<(), WriteError> {
-        let UnsavedWork { work, around, path, replaces } = unsaved;
-        let design = &work.design;
-        // A mesh already lies in a file, and may be large: only the rest of the design is kept.
-        let (mesh, design) = match (&design.cut, path) {
-            (Cut::Mesh(_), Some(_)) => {
-                (true, Cow::Owned(Design { cut: Cut::Planes(vec![stand_in()]), ..design.clone() }))
-            }
-            _ => (false, Cow::Borrowed(design)),
-        };
-        let kept = Kept {
-            path: path.clone(),
-            mesh,
-            read: work.mesh.as_ref().map(KeptMesh::of),
-            design: cut_file::write(&design),
-            around: around.clone(),
-        };
-        let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
         let name = &self.own;
-        write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))?;
+        write_kept(name, unsaved)?;
         // The write has replaced the file that was locked.
         let file = File::open(name).map_err(|e| WriteError::io(name, e))?;
         file.try_lock().map_err(|e| WriteError::io(name, std::io::Error::from(e)))?;
         self.held = Some(file);
-        replaces.iter().for_each(|path| forget(path));
+        unsaved.replaces.iter().for_each(|path| forget(path));
         Ok(())
+    }
+
+    /// Writes the work with which the next start begins.
+    ///
+    /// # Errors
+    /// Fails where the file cannot be written.
+    pub fn keep_last(&self, work: &UnsavedWork) -> Result<(), WriteError> {
+        write_kept(&self.folder.join(LAST), work)
+    }
+
+    /// Returns the work that was open when the program last ended; `None` where there is none, or where it cannot be read.
+    pub fn last(&self) -> Option<RecoveredWork> {
+        let path = self.folder.join(LAST);
+        let file = File::open(&path).ok()?;
+        // A design with a file is read from there.
+        read_kept(&file, path).map(|(found, _)| found)
     }
 
     /// Removes the autosave file, because the work is saved or discarded.
@@ -146,24 +164,54 @@ fn stand_in() -> (String, Plane) {
     ("mesh".to_owned(), Plane::new(DVec3::Z, 1.0))
 }
 
+/// Writes work into a file.
+fn write_kept(name: &Path, unsaved: &UnsavedWork) -> Result<(), WriteError> {
+    let UnsavedWork { work, around, path, .. } = unsaved;
+    let design = &work.design;
+    // A mesh already lies in a file, and may be large: only the rest of the design is kept.
+    let (mesh, design) = match (&design.cut, path) {
+        (Cut::Mesh(_), Some(_)) => {
+            (true, Cow::Owned(Design { cut: Cut::Planes(vec![stand_in()]), ..design.clone() }))
+        }
+        _ => (false, Cow::Borrowed(design)),
+    };
+    let kept = Kept {
+        path: path.clone(),
+        mesh,
+        read: work.mesh.as_ref().map(KeptMesh::of),
+        design: cut_file::write(&design),
+        around: around.clone(),
+    };
+    let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(name, e))?;
+    write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))
+}
+
+/// Reads work from a file; `None` where it cannot be read. The design of a mesh is without its triangles.
+fn read_kept(file: &File, path: PathBuf) -> Option<(RecoveredWork, bool)> {
+    let mut kept: Kept = serde_json::from_reader(BufReader::new(file)).ok()?;
+    if !(1..=MOST_STONES).contains(&kept.around.copies.poses.len()) {
+        kept.around.copies = Copies::default();
+    }
+    let design = cut_file::parse(&kept.design, "unsaved work").ok()?;
+    let when = file.metadata().and_then(|m| m.modified()).ok()?;
+    let Kept { around, path: own, mesh: is_mesh, read, .. } = kept;
+    let mesh = read.map(KeptMesh::read_mesh);
+    Some((RecoveredWork { design, around, path: own, on_disk: None, mesh, when, file: path }, is_mesh))
+}
+
 /// Reads an autosave file; `None` where a running program holds it, or where it cannot be read.
 fn orphan(path: PathBuf) -> Option<RecoveredWork> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
-    let mut kept: Kept = serde_json::from_reader(BufReader::new(&file)).ok()?;
-    if !(1..=MOST_STONES).contains(&kept.around.copies.poses.len()) {
-        kept.around.copies = Copies::default();
+    let (mut found, is_mesh) = read_kept(&file, path)?;
+    let own = found.path.clone();
+    if is_mesh {
+        found.design.cut = mesh_again(found.mesh.as_ref(), own.as_deref())?;
     }
-    let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
-    let mesh = kept.read.map(KeptMesh::read_mesh);
-    if kept.mesh {
-        design.cut = mesh_again(mesh.as_ref(), kept.path.as_deref())?;
-    }
-    let when = file.metadata().and_then(|m| m.modified()).ok()?;
     // The mesh is read in the direction that the program finds: a direction that the user chose is a change that the
     // file lacks.
-    let on_disk = kept.path.as_deref().and_then(|path| design_file::read(path).ok()).map(|read| read.design);
-    Some(RecoveredWork { design, around: kept.around, path: kept.path, on_disk, mesh, when, file: path })
+    found.on_disk = own.as_deref().and_then(|path| design_file::read(path).ok()).map(|read| read.design);
+    Some(found)
 }
 
 /// Reads the triangles of kept work again: from its mesh file with the same options as before, or else from the file that
@@ -181,6 +229,7 @@ fn mesh_again(mesh: Option<&ReadMesh>, path: Option<&Path>) -> Option<Cut> {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
+    use crate::app::model::render_settings::RenderSettings;
     use crate::app::model::work::Work;
     use crate::io::design_file::DesignFormat;
     use std::sync::Arc;
@@ -200,9 +249,12 @@ mod tests {
         let copies = Copies::scattered(3, &corners, 2);
         let around = KeptScene {
             copies,
-            behind: Some("page".into()),
-            behind_mm: Some(12.5),
-            strength: Some(0.2),
+            settings: RenderSettings {
+                background: Some("page".into()),
+                background_mm: Some(12.5),
+                strength: 0.2,
+                ..RenderSettings::default()
+            },
             ..KeptScene::default()
         };
         let path = Some("/x/mine.toml".into());
@@ -254,7 +306,13 @@ mod tests {
         let specimen = crate::scene::Specimen::new(heart).unwrap();
         design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {
-            let options = MeshOptions { up: Up::Given(DVec3::new(0.0, 0.6, 0.8)), form };
+            let options = MeshOptions {
+                up: Up::Given(DVec3::new(0.0, 0.6, 0.8)),
+                form,
+                unit: MeshUnit::Millimetres(500.0),
+                part: MeshPart::Number(1),
+                evening: Evening::AsFound,
+            };
             let work = Document::open(&path, options).unwrap().work;
             let mut safe = Autosave::new(folder.path().join("safe"));
             safe.keep(&alone(&work, Some(&path))).unwrap();

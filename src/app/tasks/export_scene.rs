@@ -58,7 +58,7 @@ impl SceneOut {
         };
         let is_picture = shot.behind.as_ref().is_some_and(BackgroundRef::is_picture);
         let scene = SceneFile {
-            name: shot.specimen.design.name.clone(),
+            name: shot.title.clone(),
             light: Some(plan.light.clone()),
             light_turn: shot.light_turn,
             light_upright: shot.light_upright,

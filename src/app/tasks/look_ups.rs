@@ -1,12 +1,13 @@
 //! Pictures that are looked up in the background: each view has its newest request answered, so that pictures follow
 //! the user's hand while the studio traces.
 
-use super::lookup::{Lookup, LookupRequest};
+use super::lookup::{Lookup, LookupRequest, coarse_picture};
 use super::runner::Turn;
 use super::{Key, Outside, TaskAnswer, fault};
 use crate::app::studio::Slot;
+use crate::io::background::BackgroundRef;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The state that all look-ups share.
 #[derive(Default)]
@@ -14,22 +15,34 @@ pub struct LookUps {
     /// The last request of each slot.
     last: HashMap<Slot, Arc<LookupRequest>>,
     lookup: Arc<Mutex<Lookup>>,
+    /// The background of the last picture, which is quickly at hand for the next.
+    at_hand: Arc<Mutex<Option<BackgroundRef>>>,
+}
+
+/// Returns the content of a lock.
+fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
+    lock.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Outside {
     /// Looks a picture up; nothing happens where the same picture was requested last.
     pub fn look_up(&mut self, slot: Slot, request: LookupRequest) {
-        let LookUps { last, lookup } = &mut self.look_ups;
+        let LookUps { last, lookup, at_hand } = &mut self.look_ups;
         if last.get(&slot).is_some_and(|last| **last == request) {
             return;
         }
         let request = Arc::new(request);
         last.insert(slot, Arc::clone(&request));
-        let lookup = Arc::clone(lookup);
+        let (lookup, at_hand) = (Arc::clone(lookup), Arc::clone(at_hand));
         let failed =
             TaskAnswer::Looked(slot, Arc::clone(&request), Err(fault("looking up the background failed")));
         self.runner.start(Key::LookUp(slot), Turn::After, Some(failed), move |job| {
-            let taken = lookup.lock().unwrap_or_else(PoisonError::into_inner).picture(&request);
+            let is_at_hand = held(&at_hand).as_ref() == Some(&request.behind);
+            if !is_at_hand && let Some(Ok(coarse)) = coarse_picture(&request) {
+                job.send(TaskAnswer::Looked(slot, Arc::clone(&request), Ok(coarse)));
+            }
+            let taken = held(&lookup).picture(&request);
+            *held(&at_hand) = Some(request.behind.clone());
             job.send(TaskAnswer::Looked(slot, request, taken));
         });
     }

@@ -1,7 +1,7 @@
 //! Makes pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it.
 
 use crate::app::lookup::as_screens;
-use crate::app::studio::{Grade, SPAN, Shot, TakenPicture};
+use crate::app::studio::{COARSE_FILM, Grade, SPAN, Shot, TakenPicture};
 use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::filling;
@@ -62,6 +62,16 @@ impl Lookup {
             None => backgrounds.picture(request),
         }
     }
+}
+
+/// Makes a picture before a coarse background, where the background is a world, which takes seconds to draw; `None` where it
+/// is not.
+pub fn coarse_picture(request: &LookupRequest) -> Option<Result<TakenPicture, Failure>> {
+    let BackgroundRef::World(_) = request.behind else { return None };
+    let reading = request.behind.picture_behind(COARSE_FILM).ok()??;
+    let levels = Levels { whole: Arc::new(reading.panorama), halved: vec![] };
+    let behind = Some((request.behind.clone(), levels));
+    Some(Backgrounds { behind, ..Backgrounds::default() }.picture(request))
 }
 
 /// The backgrounds that pictures were made of last.

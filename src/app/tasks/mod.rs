@@ -22,6 +22,7 @@ use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::fitting::LightRequest;
 use crate::app::model::opening::FileRequest;
+use crate::app::model::recovery::{RecoveredWork, UnsavedWork};
 use crate::app::model::saving::{SaveRequest, Stamp};
 use crate::app::model::task::CopyRequest;
 use crate::app::model::{Action, Task};
@@ -48,6 +49,7 @@ enum Key {
     Save,
     Choose,
     Safe,
+    Last,
     Forget,
     Watch,
     Look,
@@ -122,6 +124,7 @@ impl Outside {
             Task::Save(request) => self.save(*request),
             Task::ChooseFile(question) => self.choose_file(question),
             Task::Keep(unsaved) => self.keep(move |safe| safe.keep(&unsaved).err().map(|e| e.to_string())),
+            Task::KeepLast(work) => self.keep_last(work),
             Task::EmptySafe => self.keep(|safe| {
                 safe.empty();
                 None
@@ -184,6 +187,14 @@ impl Outside {
         let Some(safe) = self.safe.clone() else { return };
         self.write(Key::Safe, FileAction::NotKept(FAULT.to_owned()), move || {
             job(&mut safe.lock().unwrap_or_else(PoisonError::into_inner)).map(FileAction::NotKept)
+        });
+    }
+
+    fn keep_last(&mut self, work: Box<UnsavedWork>) {
+        let Some(safe) = self.safe.clone() else { return };
+        self.write(Key::Last, FileAction::NotKept(FAULT.to_owned()), move || {
+            let safe = safe.lock().unwrap_or_else(PoisonError::into_inner);
+            safe.keep_last(&work).err().map(|error| FileAction::NotKept(error.to_string()))
         });
     }
 
@@ -315,6 +326,11 @@ impl Outside {
     /// Waits until all files that were to be written are written.
     pub fn finish(&mut self) {
         self.runner.finish();
+    }
+
+    /// Returns the work that was open when the program last ended, without going to the background.
+    pub fn last(&self) -> Option<RecoveredWork> {
+        self.safe.as_ref().and_then(|safe| safe.lock().unwrap_or_else(PoisonError::into_inner).last())
     }
 
     /// Finds the work that crashes left behind, without going to the background: it is offered in the first frame.

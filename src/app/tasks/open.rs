@@ -9,7 +9,7 @@ use crate::app::model::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use crate::app::model::preset::Preset;
 use crate::app::model::saving::{SaveRequest, SavedDesign, Stamp};
 use crate::io::design_file::{self, DesignFormat};
-use crate::io::{Failure, light_file, scene_file};
+use crate::io::{Failure, has_comments, light_file, scene_file};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -45,7 +45,11 @@ pub fn save(request: SaveRequest) -> Result<SavedDesign, Failure> {
     let path = if path.extension().is_some() { path } else { completed };
     let specimen = specimen.remade(design.clone()).map_err(|e| Failure::Input(e.to_string()))?;
     let format = DesignFormat::of_name(&path).unwrap_or(DesignFormat::Toml);
-    let lost = design_file::write(&specimen, format, &path)?;
+    let before = std::fs::read_to_string(&path).unwrap_or_default();
+    let mut lost = design_file::write(&specimen, format, &path)?;
+    if format == DesignFormat::Toml && has_comments(&before) {
+        lost.push("the comments of the file that was there are not kept".to_owned());
+    }
     Ok(SavedDesign { stamp: Stamp::of(&path), path, design, lost })
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::liquid::Liquid;
+use crate::app::model::workspace::Pane;
 use crate::picture::RefractionMap;
 use crate::picture::liquid_glass::PaneQuality;
 
@@ -67,7 +68,7 @@ fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
     assert!(moved != first, "the background has moved");
     assert!(Arc::ptr_eq(&bench.map(0), &map) && bench.editor().model.workspace.eye.tilt() == 0.0);
     // Another background behind the same map.
-    bench.harness.state_mut().model.workspace.behind = Some("stripes".to_owned());
+    bench.harness.state_mut().model.document.work.settings.background = Some("stripes".to_owned());
     bench.settle();
     let other = bench.picture(0);
     assert!(other != moved && Arc::ptr_eq(&bench.map(0), &map));
@@ -78,14 +79,14 @@ fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
 #[test]
 fn a_photograph_that_vanishes_is_named_over_the_render_and_removed_by_a_click() {
     let mut bench = Bench::new();
-    let workspace = &mut bench.harness.state_mut().model.workspace;
-    workspace.panes[0].shows = Shows::Render;
-    (workspace.behind, workspace.strength) = (Some("/nowhere/garden.jpg".to_owned()), 0.3);
-    assert_eq!(workspace.strength(), 1.0);
+    bench.harness.state_mut().model.workspace.panes[0].shows = Shows::Render;
+    let settings = &mut bench.harness.state_mut().model.document.work.settings;
+    (settings.background, settings.strength) = (Some("/nowhere/garden.jpg".to_owned()), 0.3);
+    assert_eq!(settings.strength(), 1.0);
     bench.harness.run_steps(4);
     bench.click("garden.jpg is missing ×");
     bench.harness.run_steps(4);
-    assert_eq!(bench.editor().model.workspace.behind, None);
+    assert_eq!(bench.editor().model.document.work.settings.background, None);
 }
 
 #[test]
@@ -144,7 +145,9 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
     bench.look();
     let after = both(&bench);
     assert!(
-        before[0] != after[0] && before[1] != after[1] && bench.editor().model.workspace.liquid.at.x > 0.55
+        before[0] != after[0]
+            && before[1] != after[1]
+            && bench.editor().model.document.work.settings.liquid.at.x > 0.55
     );
     bench.click("Reset");
     bench.look();
@@ -159,7 +162,7 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
 fn each_row_of_liquid_glass_changes_its_picture() {
     let mut bench = Bench::new();
     bench.show(0, Shows::LiquidGlass);
-    let liquid = |bench: &Bench| bench.editor().model.workspace.liquid;
+    let liquid = |bench: &Bench| bench.editor().model.document.work.settings.liquid;
     let numbers = |bench: &Bench| {
         let Liquid { size, corners, refraction, depth, dispersion, frost, light, .. } = liquid(bench);
         [size.x, size.y, corners, refraction, depth, dispersion, frost, light]
@@ -196,7 +199,7 @@ fn the_light_of_liquid_glass_is_set_by_rows_and_follows_the_pointer_or_time() {
     bench.type_number("Light height", "20");
     bench.look();
     let set = bench.picture(0);
-    let from = |bench: &Bench| bench.editor().model.workspace.liquid.light_from;
+    let from = |bench: &Bench| bench.editor().model.liquid().light_from;
     assert!(set != first && (from(&bench).azimuth, from(&bench).height) == (200.0, 20.0));
     let follow = |bench: &mut Bench, what: &str| {
         bench.field(egui::Role::ComboBox, "Light follows").scroll_to_me();
@@ -218,7 +221,7 @@ fn the_light_of_liquid_glass_is_set_by_rows_and_follows_the_pointer_or_time() {
     assert!(bench.picture(0) != set);
     let begun = from(&bench).azimuth;
     follow(&mut bench, "time");
-    bench.wait(|editor| (editor.model.workspace.liquid.light_from.azimuth - begun).abs() > 5.0);
+    bench.wait(|editor| (editor.model.liquid().light_from.azimuth - begun).abs() > 5.0);
     assert!(bench.harness.try_run().is_err(), "it is drawn again and again");
     follow(&mut bench, "fixed");
     bench.settle();
@@ -244,7 +247,7 @@ fn looking_up_keeps_up_with_the_window() {
         for k in 1..=40 {
             let editor = bench.harness.state_mut();
             editor.model.session.flowing[0].moved.x = 0.01 * f64::from(k);
-            editor.model.workspace.liquid.at.x = 0.4 + 0.004 * f64::from(k);
+            editor.model.document.work.settings.liquid.at.x = 0.4 + 0.004 * f64::from(k);
             bench.harness.step();
             let begun = Instant::now();
             while !bench.editor().is_idle() {
@@ -255,4 +258,22 @@ fn looking_up_keeps_up_with_the_window() {
         took.sort_by(f64::total_cmp);
         println!("{shows:?} {size:?}: {:.1} ms, the slowest {:.1} ms", took[20], took[39]);
     }
+}
+
+#[test]
+fn a_world_that_is_being_drawn_is_shown_coarsely_at_once_and_the_status_line_says_so() {
+    let pane = Pane { shows: Shows::Render, own: None, is_near: false, stone: None };
+    let workspace = Workspace { layout: PaneLayout::One, panes: [pane; 4], ..Workspace::default() };
+    let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(700.0, 300.0));
+    let settings = &mut bench.harness.state_mut().model.document.work.settings;
+    (settings.wavelengths, settings.background) = (3, Some("sunset".to_owned()));
+    bench.harness.run_steps(2);
+    assert!(bench.harness.query_by_label_contains("done ·").is_none(), "an order is on its way");
+    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
+    // The whole world takes many times as long as a coarse one with a picture before it.
+    assert_eq!(bench.editor().studio.preparing().as_deref(), Some("drawing the sunset…"));
+    assert!(bench.harness.query_by_label_contains("drawing the sunset… ·").is_some());
+    let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
+    let corner = shown.taken.image.pixels[0];
+    assert!(shown.grade == Grade::Rough && corner.a() == 255 && corner.b() > 0, "{corner:?}");
 }

@@ -57,8 +57,12 @@ fn keys_open_the_chooser_move_in_it_choose_and_leave() {
 }
 
 #[test]
-fn unsaved_work_is_asked_about_before_another_cut_begins() {
-    let mut bench = Bench::new();
+fn a_file_with_unsaved_work_is_asked_about_before_another_cut_begins() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, crate::io::library::cut("tolkowsky").unwrap()).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
+    bench.wait(|editor| editor.model.document.path().is_some());
     bench.type_number("Table", "58");
     bench.click("Round brilliant…");
     bench.click("Dutch rose");

@@ -9,7 +9,7 @@ use crate::app::model::eye::Eye;
 use crate::app::model::motion::Motion;
 use crate::app::model::plan::export_plan;
 use crate::app::model::preset::Preset;
-use crate::app::model::workspace::{Pane, PaneLayout, Workspace};
+use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
 use crate::app::shows::Shows;
 use crate::app::studio::{Smoothing, Which, hung};
@@ -23,9 +23,8 @@ use std::sync::Arc;
 
 /// Opens a scene, of the program's own or from a file, in a single render view.
 pub(super) fn bench(scene: &str) -> Bench {
-    let pane = Pane { shows: Shows::Render, own: None, is_near: false };
-    let workspace =
-        Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
+    let [render, ..] = Workspace::default().panes;
+    let workspace = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
     let setup = Setup { file: Some(PathBuf::from(scene)), workspace, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(860.0, 1240.0));
     bench.harness.run_steps(3);
@@ -64,9 +63,9 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     let mut bench = bench("prism-rainbow");
     assert_eq!(poses(bench.editor()).len(), 4);
     bench.click("Subtle pill");
-    let workspace = &bench.editor().model.workspace;
+    let settings = &bench.editor().model.document.work.settings;
     assert_eq!(
-        (workspace.behind.as_deref(), workspace.behind_mm, workspace.strength),
+        (settings.background.as_deref(), settings.background_mm, settings.strength),
         (Some("page"), Some(35.0), 0.035)
     );
     let before = poses(bench.editor());
@@ -100,7 +99,7 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
 fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     let mut bench = bench("rotating-cube");
     assert!(bench.editor().model.session.motion.is_on);
-    bench.harness.state_mut().model.workspace.smoothing = Smoothing::Temporal { newest: 0.5 };
+    bench.harness.state_mut().model.document.work.settings.smoothing = Smoothing::Temporal { newest: 0.5 };
     let pictures = |bench: &Bench| {
         let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
         (shown.shot.copies.clone(), shown.taken.image.pixels.clone())
@@ -183,7 +182,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         let mut bench = bench(scene);
         bench.harness.state_mut().model.session.motion = Motion::at(seconds);
         bench.harness.state_mut().model.workspace.eye.turn = turn;
-        bench.harness.state_mut().model.workspace.behind.get_or_insert("page".to_owned());
+        bench.harness.state_mut().model.document.work.settings.background.get_or_insert("page".to_owned());
         bench.harness.state_mut().model.workspace.panes[0].is_near = scene == "wavy-plate";
         // One copy lies behind the others, so that the centre of all copies is not that of the first.
         if let [.., last] = &mut bench.harness.state_mut().model.document.work.copies.poses[1..] {
@@ -217,8 +216,8 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
 #[test]
 fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     let sight = |bench: &Bench| {
-        let Workspace { panes, distance, smoothing, eye, .. } = &bench.editor().model.workspace;
-        (panes[0].is_near, *distance, *smoothing, *eye)
+        let Workspace { panes, distance, eye, .. } = &bench.editor().model.workspace;
+        (panes[0].is_near, *distance, bench.editor().model.document.work.settings.smoothing, *eye)
     };
     let text =
         "format = 1\nname = \"Near\"\nangle_of_view = 45\nexposure = 0.5\nstone = [{ cut = \"cube\" }]";
@@ -230,13 +229,13 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     let (is_near, distance, smoothing, eye) = sight(&bench);
     assert!(is_near && (distance * 22.5_f64.to_radians().tan() / reach - 1.0).abs() < 1e-9, "{distance}");
     assert_eq!((smoothing, eye), (Smoothing::None, Eye::default()));
-    assert_eq!(bench.editor().model.document.work.exposure, 0.5);
-    // The next preset has its own; after it, everything is as it was before the first scene.
+    assert_eq!(bench.editor().model.document.work.settings.exposure, 0.5);
+    // The next preset has its own, and a design has the program's.
     let light = |bench: &Bench| {
-        let work = &bench.editor().model.document.work;
-        (work.light.clone(), work.exposure, bench.editor().model.workspace.bounces)
+        let settings = &bench.editor().model.document.work.settings;
+        (settings.light.clone(), settings.exposure, settings.bounces)
     };
-    bench.harness.state_mut().model.workspace.bounces = 3;
+    bench.harness.state_mut().model.document.work.settings.bounces = 3;
     bench.harness.state_mut().act(FileAction::Ask(Then::Preset("free-diamond".to_owned())));
     bench.harness.run_steps(3);
     assert_eq!(light(&bench), ("city".to_owned(), 1.5, 64));
@@ -249,6 +248,7 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
 #[test]
 fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
     let mut bench = bench("cube");
+    bench.leave_one();
     bench.harness.state_mut().act(Edit::LayOut(4));
     bench.harness.run_steps(3);
     let last = poses(bench.editor())[3].at;
@@ -316,19 +316,39 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
 }
 
 #[test]
-fn copies_that_were_moved_are_asked_about_before_they_go() {
+fn a_preset_after_a_drag_asks_nothing_and_undo_brings_back_what_was_there() {
     let mut bench = bench("rotating-cube");
     bench.harness.state_mut().model.session.motion.rest();
+    let strength = |bench: &Bench| bench.editor().model.document.work.settings.strength;
     bench.click("Prism rainbow");
-    assert_eq!(bench.editor().model.workspace.strength, 0.155, "nothing was moved");
     bench.click("Scatter");
+    bench.type_number("Glow", "0.35");
+    bench.type_number("Index", "1.61");
+    let before = bench.editor().model.document.work.clone();
     bench.click("Subtle pill");
-    assert_eq!(bench.editor().model.workspace.strength, 0.155);
+    assert!(bench.editor().model.session.dialog.is_none() && strength(&bench) == 0.035);
+    assert_ne!(bench.editor().model.document.work.settings.glow, 0.35, "a preset brings its own");
+    assert!(!bench.editor().model.document.is_changed() && !bench.editor().model.document.has_moved_copies());
+    let undo = |bench: &mut Bench, modifiers| {
+        bench.harness.key_press_modifiers(egui::Modifiers::COMMAND | modifiers, Key::Z);
+        bench.harness.run_steps(3);
+    };
+    undo(&mut bench, egui::Modifiers::NONE);
+    assert_eq!(bench.editor().model.document.work, before);
+    assert!(bench.editor().model.document.is_changed() && bench.editor().model.document.has_moved_copies());
+    undo(&mut bench, egui::Modifiers::SHIFT);
+    assert_eq!(strength(&bench), 0.035);
+    (0..2).for_each(|_| undo(&mut bench, egui::Modifiers::NONE));
+    assert_eq!(bench.editor().model.document.work.settings.glow, 0.35, "the steps before are there too");
+    // A file would be lost with the places of the copies.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.toml");
+    std::fs::write(&path, "format = 1").unwrap();
+    let open = FileAction::Ask(Then::open(path));
+    undo(&mut bench, egui::Modifiers::NONE);
+    bench.harness.state_mut().act(open);
+    bench.harness.run_steps(2);
     bench.click("Export…");
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
     assert!(export.plan.selection.scene);
-    bench.click("Cancel");
-    bench.click("Subtle pill");
-    bench.click("Discard");
-    assert_eq!(bench.editor().model.workspace.strength, 0.035);
 }

@@ -21,9 +21,10 @@ fn drag(name: &str, shows_map: bool, change: impl FnMut(&mut Editor, u32)) {
 /// Does the same with the cut of a file in `cuts/`.
 fn drag_of(cut: Option<&str>, name: &str, shows_map: bool, mut change: impl FnMut(&mut Editor, u32)) {
     let file = cut.map(|cut| format!("{}/cuts/{cut}", env!("CARGO_MANIFEST_DIR")).into());
-    let workspace = Workspace { head: 1e-9, shows_map, ..Workspace::default() };
+    let workspace = Workspace { shows_map, ..Workspace::default() };
     let setup = Setup { workspace, file, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
+    bench.harness.state_mut().model.document.work.settings.head = 1e-9;
     bench.settle();
     let begun = Instant::now();
     let (mut frames, mut seen) = (vec![], [0_u32; 3]);
@@ -68,7 +69,7 @@ fn the_views_follow_the_hand() {
     // This starts with a tilted stone: near a tilt of 0 the view would snap to 0.
     drag("tilt", false, |editor, k| {
         if k == 0 {
-            editor.model.workspace.eye.free();
+            editor.model.workspace.eye.lean = glam::DVec2::new(-0.25, -0.55);
         }
         editor.model.workspace.eye.drag(Side::Table, DVec2::new(0.004, 0.002));
     });

@@ -167,6 +167,13 @@ fn keys_tilt_and_bring_back() {
     bench.settle();
     bench.harness.key_press(egui::Key::F);
     bench.harness.run_steps(2);
+    assert_eq!(bench.editor().model.workspace.eye.tilt(), 0.0, "the view had no tilt before");
+    bench.harness.state_mut().model.workspace.eye.lean = glam::DVec2::new(-0.25, -0.55);
+    bench.harness.key_press(egui::Key::T);
+    bench.harness.run_steps(2);
+    assert_eq!(bench.editor().model.workspace.eye.tilt(), 0.0);
+    bench.harness.key_press(egui::Key::F);
+    bench.harness.run_steps(2);
     assert!(bench.editor().model.workspace.eye.tilt() > 0.3);
     bench.harness.key_press(egui::Key::B);
     bench.harness.run_steps(2);

@@ -146,7 +146,7 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
             && editor.model.session.measured.figures.contains_key(&Which::Present)
     });
     assert!(bench.harness.query_by_label_contains("Triangles of a mesh").is_some());
-    assert!(bench.harness.query_by_label_contains("it is not convex; --as faceted reads").is_some());
+    assert!(bench.harness.query_by_label_contains("it is not convex; read as a faceted stone").is_some());
     let picture = bench.picture(0);
     assert!(picture.iter().any(|p| p != &picture[0]));
     let figures = &bench.editor().model.session.measured.figures[&Which::Present];
@@ -162,6 +162,7 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
 #[test]
 fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
     let mut bench = Bench::with(Setup { file: Some("plate".into()), ..Setup::default() });
+    bench.leave_one();
     bench.settle();
     let cut = bench.editor().model.document.work.design.cut.clone();
     let Cut::Glass(Glass::Plate(plate)) = &cut else { panic!("{cut:?}") };
@@ -186,6 +187,7 @@ fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
     let [render, ..] = Workspace::default().panes;
     let workspace = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
     let mut bench = Bench::with(Setup { file: Some("prism".into()), workspace, ..Setup::default() });
+    bench.leave_one();
     bench.settle();
     let many = bench.picture(0);
     bench.harness.key_down(egui::Key::Z);
@@ -203,14 +205,15 @@ fn a_pattern_hangs_behind_glass_and_is_refracted_as_strongly_as_asked() {
     let workspace = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
     let setup = Setup { file: Some("cube".into()), workspace, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(900.0, 300.0));
+    bench.leave_one();
     bench.look();
     let plain = bench.picture(0);
-    bench.harness.state_mut().model.workspace.behind = Some("grid".into());
+    bench.harness.state_mut().model.document.work.settings.background = Some("grid".into());
     bench.look();
     let refracted = bench.picture(0);
     assert!(refracted != plain);
     assert!(bench.harness.query_by_role_and_label(egui::Role::SpinButton, "Strength").is_some());
-    bench.harness.state_mut().model.workspace.strength = 0.1;
+    bench.harness.state_mut().model.document.work.settings.strength = 0.1;
     bench.look();
     assert!(bench.picture(0) != refracted);
 }

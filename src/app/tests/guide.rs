@@ -64,7 +64,7 @@ fn a_lower_crown() {
 #[ignore = "writes a picture into docs/images/editor"]
 fn a_tilt_with_wireframe() {
     let mut bench = window("tolkowsky.toml", &Workspace::default());
-    bench.harness.key_press(egui::Key::F);
+    bench.harness.state_mut().model.workspace.eye.lean = glam::DVec2::new(-0.25, -0.55);
     bench.settle();
     bench.harness.key_press(egui::Key::W);
     take(&mut bench, "tilt");
@@ -113,9 +113,12 @@ fn four_cubes() {
 #[ignore = "writes a picture into docs/images/editor"]
 fn what_lies_behind() {
     let shown = [Shows::Render, Shows::Refraction, Shows::LiquidGlass, Shows::TracedPane];
-    let mut workspace = Workspace { behind: Some("page".into()), ..Workspace::default() };
-    workspace.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
-    draw(&mut window("cube.toml", &workspace), "backgrounds");
+    let mut bench = window("cube.toml", &Workspace::default());
+    bench.leave_one();
+    let model = &mut bench.harness.state_mut().model;
+    model.document.work.settings.background = Some("page".into());
+    model.workspace.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
+    draw(&mut bench, "backgrounds");
 }
 
 #[test]

@@ -224,7 +224,10 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     drop_on(&mut bench, &[&at("mesh.stl")]);
     bench.wait(|editor| matches!(editor.model.document.work.design.cut, Cut::Planes(_)));
     drop_on(&mut bench, &[&at("photo.png")]);
-    assert_eq!(bench.editor().model.workspace.behind, Some(at("photo.png").display().to_string()));
+    assert_eq!(
+        bench.editor().model.document.work.settings.background,
+        Some(at("photo.png").display().to_string())
+    );
     for light in ["lamp.toml", "sky.hdr"] {
         drop_on(&mut bench, &[&at(light)]);
         bench.wait(|editor| {

@@ -1,7 +1,8 @@
 //! Tests of the window's layout: on small screens, beside errors, for stones of any outline.
 
 use super::*;
-use crate::app::model::dialog::Dialog;
+use crate::app::model::command::MENUS;
+use crate::app::model::dialog::{Dialog, Then};
 use crate::app::model::document::Document;
 use crate::app::model::exporting::ExportForm;
 use crate::app::model::plan::export_plan;
@@ -9,10 +10,13 @@ use crate::app::theme;
 use crate::cut::{Design, MaterialRef};
 use crate::io::{cut_file, design_file};
 use egui::{Color32, Rect, Role, vec2};
-use egui_kittest::kittest::NodeT;
+use egui_kittest::kittest::{By, NodeT};
+
+/// A small window, in points: a screen of 1280 by 720 pixels at 150 %.
+const SMALL: egui::Vec2 = vec2(853.0, 480.0);
 
 /// The least size of the window, in points.
-const SMALL: egui::Vec2 = vec2(800.0, 600.0);
+const LEAST: egui::Vec2 = vec2(640.0, 420.0);
 
 /// The right edge of the design panel, in points.
 const PANEL: f32 = 362.0;
@@ -54,17 +58,6 @@ fn colours_of_texts(bench: &Bench) -> Vec<(Color32, String)> {
     let mut found = vec![];
     bench.harness.output().shapes.iter().for_each(|clipped| add(&clipped.shape, &mut found));
     found
-}
-
-#[test]
-fn buttons_of_the_export_are_in_sight_in_the_least_window() {
-    let mut bench = small(1.0);
-    bench.choose("File", "Export…");
-    bench.harness.run_steps(4);
-    for name in ["Write files", "Cancel"] {
-        let button = bench.harness.get_by_label(name).rect();
-        assert!(button.bottom() < SMALL.y - 8.0, "{name} ends at {}", button.bottom());
-    }
 }
 
 #[test]
@@ -113,37 +106,100 @@ fn a_small_window_folds_one_panel_and_a_click_opens_it_in_place_of_the_other() {
     }
 }
 
+/// Returns whether a widget lies within the window.
+fn is_in_sight(bench: &Bench, label: &str) -> bool {
+    window(bench).contains_rect(bench.harness.get_by_label_contains(label).rect())
+}
+
 #[test]
-fn in_a_small_window_every_entry_of_a_menu_and_every_button_of_a_dialog_is_reached() {
-    let mut bench = small(1.0);
-    let whole = window(&bench);
-    for (menu, last) in [("File", "Quit"), ("View", "Hide panels"), ("Help", "About Brillianteer")] {
-        bench.click(menu);
-        bench.harness.run_steps(4);
-        let reached = |bench: &Bench| whole.contains_rect(bench.harness.get_by_label_contains(last).rect());
-        if !reached(&bench) {
-            bench.harness.get_by_label_contains(last).scroll_to_me();
-            bench.harness.run_steps(30);
+fn in_a_small_window_every_entry_of_a_menu_is_reached_and_a_bar_shows_that_there_is_more() {
+    for size in [SMALL, LEAST, vec2(1440.0, 900.0)] {
+        let mut bench = Bench::sized(Setup::default(), size);
+        bench.harness.run_steps(3);
+        for (menu, last) in [("File", "Quit"), ("View", "Reset layout"), ("Help", "About Brillianteer")] {
+            let before = bars(&bench);
+            bench.click(menu);
+            bench.harness.run_steps(4);
+            if !is_in_sight(&bench, last) {
+                assert!(bars(&bench) > before, "{menu} at {size}: no bar shows that there is more");
+                bench.harness.get_by_label_contains(last).scroll_to_me();
+                bench.harness.run_steps(30);
+            }
+            assert!(is_in_sight(&bench, last), "{menu}: {last}");
+            bench.harness.key_press(egui::Key::Escape);
+            bench.harness.run_steps(4);
         }
-        assert!(reached(&bench), "{menu}: {last}");
-        bench.harness.key_press(egui::Key::Escape);
-        bench.harness.run_steps(4);
     }
-    for (menu, entry, last) in [
-        ("File", "Export…", "Cancel"),
-        ("Help", "Keys and terms", "Close"),
-        ("Help", "About Brillianteer", "Close"),
-    ] {
-        bench.choose(menu, entry);
-        bench.harness.run_steps(4);
-        if !whole.contains_rect(bench.harness.get_by_label(last).rect()) {
-            bench.harness.get_by_label(last).scroll_to_me();
-            bench.harness.run_steps(30);
+}
+
+/// Returns the number of scroll bars in sight: filled rectangles that are as narrow as their handles.
+fn bars(bench: &Bench) -> usize {
+    let shapes = bench.harness.output().shapes.iter().flat_map(|clipped| single_shapes(&clipped.shape));
+    let is_bar = |shape: &egui::Shape| match shape {
+        egui::Shape::Rect(bar) => bar.fill.a() > 60 && bar.rect.width() == 6.0 && bar.rect.height() > 24.0,
+        _ => false,
+    };
+    shapes.filter(is_bar).count()
+}
+
+/// Returns the commands that open dialogs, with the names of the buttons of each.
+fn dialogs() -> Vec<(&'static str, &'static [&'static str])> {
+    vec![
+        ("Export…", &["Write files", "Cancel"]),
+        ("Keys and terms", &["Close"]),
+        ("About Brillianteer", &["Close"]),
+        ("New from a cut…", &["Cancel"]),
+        ("Fit to another material…", &["Cancel"]),
+        ("Size and yield…", &["Use this size", "Close"]),
+    ]
+}
+
+#[test]
+fn buttons_of_every_dialog_are_always_in_sight_and_so_is_what_has_the_focus() {
+    for (size, pixels_per_point) in [(SMALL, 1.5), (LEAST, 2.0), (vec2(1707.0, 960.0), 0.75)] {
+        let builder = Harness::builder().with_size(size).with_pixels_per_point(pixels_per_point);
+        let mut bench = Bench::built(Setup::default(), builder);
+        bench
+            .harness
+            .ctx
+            .all_styles_mut(|style| style.scroll_animation = egui::style::ScrollAnimation::none());
+        bench.harness.run_steps(3);
+        for (entry, names) in dialogs() {
+            let menu = MENUS
+                .iter()
+                .find(|menu| menu.groups.iter().copied().flatten().any(|command| command.name() == entry));
+            bench.choose(menu.unwrap().title, entry);
+            bench.harness.run_steps(6);
+            for name in names {
+                assert_in_window(&bench, entry, name);
+            }
+            for _ in 0..if size == LEAST { 16 } else { 0 } {
+                bench.harness.key_press(egui::Key::Tab);
+                bench.harness.run_steps(3);
+                let focused = bench.harness.query_all(By::new().predicate(|node| node.is_focused())).next();
+                let rect = focused.expect("Tab gives something the focus").rect();
+                assert!(window(&bench).expand(1.0).contains_rect(rect), "{entry}: the focus is at {rect:?}");
+            }
+            bench.harness.key_press(egui::Key::Escape);
+            bench.harness.run_steps(4);
+            assert!(bench.editor().model.session.dialog.is_none(), "{entry}");
         }
-        assert!(whole.contains_rect(bench.harness.get_by_label(last).rect()), "{entry}: {last}");
-        bench.click(last);
-        assert!(bench.editor().model.session.dialog.is_none(), "{entry}");
+        let mut asked =
+            vec![(Dialog::Unsaved(Then::Close), "Cancel"), (Dialog::Moved(Then::Close), "Cancel")];
+        asked.push((Dialog::ChangedOutside, "Reload the file"));
+        for (dialog, last) in asked {
+            bench.harness.state_mut().model.session.dialog = Some(dialog);
+            bench.harness.run_steps(4);
+            assert_in_window(&bench, "a question", last);
+            bench.harness.state_mut().model.session.dialog = None;
+            bench.harness.run_steps(4);
+        }
     }
+}
+
+fn assert_in_window(bench: &Bench, dialog: &str, button: &str) {
+    let rect = bench.harness.get_by_role_and_label(Role::Button, button).rect();
+    assert!(window(bench).shrink(8.0).contains_rect(rect), "{dialog}: {button} is at {rect:?}");
 }
 
 #[test]
@@ -176,11 +232,11 @@ fn the_fields_of_a_panel_stand_in_one_column() {
     let path = folder.path().join("planes.toml");
     std::fs::write(&path, cut_file::write(&tiers)).unwrap();
     for file in [None, pill, Some(path)] {
-        let mut workspace = Bench::small();
-        workspace.behind = Some("grid".into());
-        let mut bench =
-            Bench::sized(Setup { file: file.clone(), workspace, ..Setup::default() }, vec2(1200.0, 900.0));
+        let setup = Setup { file: file.clone(), workspace: Bench::small(), ..Setup::default() };
+        let mut bench = Bench::sized(setup, vec2(1200.0, 900.0));
         bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
+        bench.harness.state_mut().model.document.work.settings.background = Some("grid".into());
+        bench.harness.run_steps(3);
         let numbers = fields(&bench, Role::SpinButton);
         let numbers: Vec<_> = numbers.into_iter().filter(|(name, _)| !name.contains("Angle")).collect();
         assert!(numbers.len() > 5, "{numbers:?}");
@@ -213,8 +269,9 @@ fn nothing_is_red_while_nothing_is_wrong() {
     // A small window, because renders take long.
     let mut bench = Bench::sized(setup, vec2(900.0, 300.0));
     bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
-    let workspace = &mut bench.harness.state_mut().model.workspace;
-    (workspace.behind, workspace.strength) = (Some("grid".into()), 0.5);
+    bench.leave_one();
+    let settings = &mut bench.harness.state_mut().model.document.work.settings;
+    (settings.background, settings.strength) = (Some("grid".into()), 0.5);
     bench.look();
     bench.harness.state_mut().model.session.notes.warn("it was saved, but not all of it".into());
     let editor = bench.harness.state_mut();
@@ -330,6 +387,7 @@ fn film(bench: &Bench) -> (f64, glam::DVec2) {
 fn a_stone_keeps_its_scale_while_one_number_changes() {
     let mut bench = Bench::with(Setup { file: Some("pill".into()), ..Setup::default() });
     bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
+    bench.leave_one();
     bench.harness.run_steps(3);
     let before = film(&bench);
     let width = bench.harness.get_by_role_and_label(Role::SpinButton, "Width").rect();

@@ -2,6 +2,7 @@
 
 use super::Bench;
 use super::copies::bench;
+use crate::app::model::render_settings::RenderSettings;
 use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
 use crate::app::studio::{Shot, Smoothing};
@@ -23,8 +24,8 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex};
 
-fn workspace(bench: &Bench) -> &Workspace {
-    &bench.editor().model.workspace
+fn settings(bench: &Bench) -> &RenderSettings {
+    &bench.editor().model.document.work.settings
 }
 
 /// Returns the last order of the render.
@@ -51,7 +52,7 @@ fn rows_of_light_change_what_renders_are_ordered_to_show() {
     bench.type_number("Glow", "0.4");
     bench.type_number("Distance", "80");
     assert_eq!((shot(&bench).light_turn, shot(&bench).bounces, shot(&bench).glow), (35.0, 4, 0.4));
-    assert_eq!(workspace(&bench).behind_mm, Some(80.0));
+    assert_eq!(settings(&bench).background_mm, Some(80.0));
     let near = shot(&bench).view.projection;
     bench.type_number("View angle", "30");
     assert_ne!(shot(&bench).view.projection, near);
@@ -61,14 +62,13 @@ fn rows_of_light_change_what_renders_are_ordered_to_show() {
     bench.type_number("Strength", "0.5");
     assert_eq!((shot(&bench).exposure, shot(&bench).strength), (1.5, 0.5));
     pick(&mut bench, "Wavelengths", "32");
-    assert_eq!((workspace(&bench).wavelengths, shot(&bench).bands), (32, 32));
+    assert_eq!((settings(&bench).wavelengths, shot(&bench).bands), (32, 32));
     pick(&mut bench, "Background", "city");
     assert_eq!(shot(&bench).behind.as_ref().map(ToString::to_string), Some("city".to_owned()));
     pick(&mut bench, "Smoothing", "temporal");
     bench.type_number("Newest part", "0.25");
     assert_eq!(shot(&bench).smoothing, Smoothing::Temporal { newest: 0.25 });
-    assert_ne!(Workspace::default().glow, 0.4);
-    assert_eq!(Workspace::default().glow, Bloom::default().strength);
+    assert_eq!(RenderSettings::default().glow, Bloom::default().strength);
 }
 
 #[test]
@@ -295,11 +295,11 @@ fn every_light_in_the_list_has_a_picture_in_the_mean_colour_of_its_own_light() {
 #[test]
 fn another_light_is_drawn_at_random_and_undone() {
     let mut bench = bench("subtle-pill");
-    let before = bench.editor().model.document.work.light.clone();
+    let before = bench.editor().model.document.work.settings.light.clone();
     let mut seen = vec![before.clone()];
     for _ in 0..4 {
         pick(&mut bench, "Light", "Another at random");
-        let now = bench.editor().model.document.work.light.clone();
+        let now = bench.editor().model.document.work.settings.light.clone();
         assert!(LIGHTS.contains(&now.as_str()) && Some(&now) != seen.last(), "{now} after {seen:?}");
         seen.push(now);
     }
@@ -307,9 +307,31 @@ fn another_light_is_drawn_at_random_and_undone() {
         bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
         bench.harness.run_steps(3);
     }
-    assert_eq!(bench.editor().model.document.work.light, before);
+    assert_eq!(bench.editor().model.document.work.settings.light, before);
     bench.choose("View", "Another light");
-    assert_ne!(bench.editor().model.document.work.light, before);
+    assert_ne!(bench.editor().model.document.work.settings.light, before);
     pick(&mut bench, "Light", "office");
-    assert_eq!(bench.editor().model.document.work.light, "office");
+    assert_eq!(bench.editor().model.document.work.settings.light, "office");
+}
+
+#[test]
+fn what_is_under_the_pointer_is_outlined_on_facets_and_not_on_glass() {
+    let outlines = |scene: &str| {
+        let mut bench = bench(scene);
+        bench.harness.run_steps(3);
+        let at = shot(&bench).copies[0].at;
+        let at = super::copies::at(&bench, at.x, at.y);
+        bench.harness.hover_at(at);
+        bench.harness.run_steps(3);
+        assert!(!bench.editor().model.session.message.is_empty(), "{scene}: something is under the pointer");
+        let shapes = bench.harness.output().shapes.iter();
+        let single = shapes.flat_map(|clipped| super::single_shapes(&clipped.shape));
+        let is_outline = |shape: &egui::Shape| match shape {
+            egui::Shape::LineSegment { stroke, .. } => stroke.color == egui::Color32::from_white_alpha(220),
+            _ => false,
+        };
+        single.filter(is_outline).count()
+    };
+    assert_eq!(outlines("subtle-pill"), 0);
+    assert!(outlines("trilogy") > 2);
 }

@@ -22,6 +22,8 @@ mod maps;
 mod reading;
 mod recorder;
 mod rings;
+mod row_defaults;
+mod row_keys;
 mod scenes;
 mod searching;
 mod tier_hand;
@@ -29,7 +31,9 @@ mod tiers;
 mod views;
 
 use crate::app::editor::Editor;
+use crate::app::model::Model;
 use crate::app::model::choosing::{Choice, Question};
+use crate::app::model::render_settings::RenderSettings;
 use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
 use crate::app::shows::Shows;
@@ -37,6 +41,7 @@ use crate::app::studio::{Grade, Shot, Slot, Which};
 use crate::app::tasks::files::Chooser;
 use crate::app::views::gallery::Shown;
 use crate::cut::{Cut, RoundBrilliant};
+use crate::scene::Copies;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::PathBuf;
@@ -56,6 +61,31 @@ const PATIENCE: Duration = Duration::from_secs(600);
 
 /// Number of frames that scrolling takes.
 const SCROLLED: usize = 24;
+
+/// Returns how far the painted triangles of a shape reach beyond the rectangle around its points, points.
+pub fn farthest_outside(shape: &egui::Shape) -> f32 {
+    use egui::epaint::{ClippedShape, Primitive, TessellationOptions, Tessellator};
+    let clipped = ClippedShape::new(egui::Rect::EVERYTHING, shape.clone());
+    let mut tessellator = Tessellator::new(1.0, TessellationOptions::default(), [1, 1], vec![]);
+    let mut painted = vec![];
+    tessellator.tessellate_clipped_shape(clipped, &mut painted);
+    let rect = shape.visual_bounding_rect();
+    let of = |primitive: egui::ClippedPrimitive| match primitive.primitive {
+        Primitive::Mesh(mesh) => mesh.vertices,
+        Primitive::Callback(_) => vec![],
+    };
+    let beyond = |at: egui::Pos2| rect.distance_to_pos(at);
+    painted.into_iter().flat_map(of).map(|vertex| beyond(vertex.pos)).fold(0.0, f32::max)
+}
+
+/// Returns the single shapes of a shape, without texts.
+pub fn single_shapes(shape: &egui::Shape) -> Vec<egui::Shape> {
+    match shape {
+        egui::Shape::Vec(shapes) => shapes.iter().flat_map(single_shapes).collect(),
+        egui::Shape::Text(_) | egui::Shape::Noop => vec![],
+        other => vec![other.clone()],
+    }
+}
 
 impl Bench {
     /// Opens an editor without a file, a graphics card or an autosave.
@@ -104,6 +134,14 @@ impl Bench {
             .with_step_dt(1.0 / 60.0)
             .build_eframe(|context| Editor::new(context, setup).unwrap());
         Self { harness, choices, opened }
+    }
+
+    /// Leaves of a scene of glass one shape at rest, without a background, under the program's light, in all views of the layout.
+    pub fn leave_one(&mut self) {
+        let Model { document, workspace, session } = &mut self.harness.state_mut().model;
+        (document.work.copies, document.work.settings) = (Copies::default(), RenderSettings::default());
+        workspace.begin_views();
+        session.motion.rest();
     }
 
     pub fn editor(&self) -> &Editor {

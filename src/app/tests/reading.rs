@@ -5,9 +5,9 @@ use crate::app::model::action::FileAction;
 use crate::app::model::dialog::{Dialog, Then};
 use crate::app::model::document::Document;
 use crate::app::model::opening::{FileRequest, Opening, OpeningPurpose};
-use crate::cut::from_mesh::Up;
+use crate::cut::from_mesh::{Evening, Up};
 use crate::io::design_file::{self, DesignFormat};
-use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::scene::Specimen;
 use glam::DVec3;
 use std::path::Path;
@@ -20,7 +20,13 @@ fn scan(folder: &Path) -> PathBuf {
     path
 }
 
-const UP: MeshOptions = MeshOptions { up: Up::Given(DVec3::NEG_Y), form: MeshForm::Found };
+const UP: MeshOptions = MeshOptions {
+    up: Up::Given(DVec3::NEG_Y),
+    form: MeshForm::Found,
+    unit: MeshUnit::Found,
+    part: MeshPart::Found,
+    evening: Evening::WhereLikely,
+};
 
 #[test]
 fn a_mesh_that_is_opened_after_a_question_is_read_as_it_was_asked_for() {
@@ -76,4 +82,26 @@ fn a_design_that_was_made_of_a_mesh_and_saved_is_read_again_without_the_meshs_op
     assert_eq!(editor.model.session.awaited.opening[0].request.mesh, UP);
     editor.act(FileAction::Open(toml, OpeningPurpose::Again));
     assert_eq!(editor.model.session.awaited.opening[0].request.mesh, MeshOptions::default());
+}
+
+#[test]
+fn the_unit_of_a_mesh_sets_its_size_when_it_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("box.obj");
+    let corners = [(4, 4), (-4, 4), (-4, -4), (4, -4)];
+    let corner = |z: i32| corners.map(|(x, y)| format!("v {x} {y} {z}\n")).concat();
+    let faces = "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    std::fs::write(&path, corner(2) + &corner(-2) + faces).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
+    bench.wait(|editor| editor.model.document.work.mesh.is_some());
+    assert_eq!(bench.editor().model.document.work.design.diameter_mm, 8.0);
+    let remarks = bench.editor().model.document.work.remarks.join("; ");
+    assert!(remarks.contains("the file states no unit"), "{remarks}");
+    bench.harness.run_steps(3);
+    bench.harness.get_by_role_and_label(egui::Role::ComboBox, "Unit").click();
+    bench.harness.run_steps(3);
+    bench.harness.get_by_label("cm").click();
+    bench.wait(|editor| editor.model.document.work.design.diameter_mm == 80.0);
+    let remarks = bench.editor().model.document.work.remarks.join("; ");
+    assert!(!remarks.contains("the file states no unit"), "{remarks}");
 }

@@ -1,16 +1,19 @@
 //! Tests of scenes of several designs and metal, worked on as a person does.
 
-use super::Bench;
 use super::copies::{at, bench, drag};
+use super::{Bench, Setup};
 use crate::app::model::Model;
 use crate::app::model::action::{Edit, FileAction};
+use crate::app::model::command::Command;
 use crate::app::model::dialog::Then;
 use crate::app::model::plan::export_plan;
 use crate::app::model::preset::Preset;
 use crate::app::model::recovery::KeptCompanions;
+use crate::app::model::render_settings::SettingChange;
 use crate::app::model::update;
 use crate::app::model::work::Work;
 use crate::app::model::workspace::Workspace;
+use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::app::tasks::export_scene::SceneOut;
 use crate::scene::MetalInstance;
@@ -103,40 +106,142 @@ fn a_stone_of_another_design_is_shown_and_dragged_and_stops_before_the_next() {
 }
 
 #[test]
-fn a_design_that_is_opened_after_a_scene_has_the_light_and_the_views_from_before_it() {
-    use crate::app::model::action::{Edit, ViewAction};
+fn each_document_has_the_light_and_the_views_of_its_own_and_undo_brings_them_back() {
+    use crate::app::model::action::ViewAction;
     let state = |model: &Model| {
-        let (work, workspace) = (&model.document.work, &model.workspace);
-        let near = workspace.panes.each_ref().map(|pane| (pane.shows, pane.is_near));
-        ((work.light.clone(), work.exposure, workspace.behind.clone()), (workspace.shown(), near))
+        let near = model.workspace.panes.each_ref().map(|pane| (pane.shows, pane.is_near));
+        (model.document.work.settings.clone(), (model.workspace.shown(), near))
     };
     let open = |model: &mut Model, then: Then| drop(update(model, FileAction::Ask(then).into()));
     let design = || Then::Library("tolkowsky".to_owned());
     for scene in ["halo-ring", "rotating-cube"] {
         let mut model = Model::new(Workspace::default()).unwrap();
-        let before = state(&model);
+        let first = state(&model);
+        update(&mut model, Edit::Setting(SettingChange::Light("ring".to_owned())).into());
+        update(&mut model, ViewAction::Show(0, Shows::LiquidGlass).into());
+        let before = (state(&model), model.document.work.design.clone());
         open(&mut model, Then::Preset(scene.to_owned()));
-        let (lit, seen) = state(&model);
-        assert_eq!(seen.0.len(), 1, "{scene} is shown alone");
-        assert!(lit != before.0, "{scene} brings its light");
-        // Another scene between changes nothing, and neither does another start.
+        let in_scene = state(&model);
+        assert_eq!(in_scene.1.0.len(), 1, "{scene} is shown alone");
+        assert!(in_scene.0 != first.0, "{scene} brings its light");
+        let own = model.workspace.shown()[0];
+        update(&mut model, ViewAction::Enlarge(own).into());
         open(&mut model, Then::Preset("prism-rainbow".to_owned()));
-        let kept = Workspace {
-            light: model.document.work.light.clone(),
-            exposure: model.document.work.exposure,
-            ..model.workspace.clone()
-        };
-        let started = Model::new(kept).unwrap();
-        assert_eq!(state(&started), before, "{scene}");
         open(&mut model, design());
-        assert_eq!(state(&model), before, "{scene}");
-        // The user's own choices stay.
-        open(&mut model, Then::Preset(scene.to_owned()));
-        update(&mut model, Edit::Light("ring".to_owned()).into());
-        update(&mut model, ViewAction::Enlarge(0).into());
-        open(&mut model, design());
-        assert_eq!((state(&model).0.0.as_str(), model.workspace.shown().len()), ("ring", 4), "{scene}");
+        assert_eq!(state(&model), first, "{scene}: nothing of a scene is left");
+        let started = Model::new(model.workspace.clone()).unwrap();
+        assert_eq!(state(&started), first, "{scene}: nor at the next start");
+        for _ in 0..2 {
+            update(&mut model, Command::Undo.into());
+        }
+        assert_eq!(model.workspace.shown().len(), 4, "{scene}: the views as they were left");
+        update(&mut model, Command::Undo.into());
+        assert_eq!((state(&model), model.document.work.design.clone()), before, "{scene}");
     }
+}
+
+/// Returns the shot of the first view in sight, and the number of views in sight.
+fn seen(bench: &Bench) -> (crate::app::studio::Shot, usize) {
+    let model = &bench.editor().model;
+    (model.session.ordered.shots[0].1.clone(), model.workspace.shown().len())
+}
+
+#[test]
+fn a_scene_and_a_shape_of_glass_begin_the_same_way_however_they_are_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let started = |file: std::path::PathBuf| {
+        let mut bench = Bench::with(Setup { file: Some(file), ..Setup::default() });
+        bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
+        bench
+    };
+    let assert_alike = |bench: &Bench, first: &Bench, how: &str| {
+        let ((shot, count), (other, _)) = (seen(bench), seen(first));
+        assert_eq!((count, shot.shows), (1, Shows::Render), "{how}: a render is alone");
+        assert_eq!(
+            (shot.behind, shot.strength, shot.exposure),
+            (other.behind, other.strength, other.exposure),
+            "{how}"
+        );
+        assert_eq!((shot.bands, shot.view.projection), (other.bands, other.view.projection), "{how}");
+        assert_eq!(shot.copies.len(), other.copies.len(), "{how}");
+        let is_moving = |bench: &Bench| bench.editor().model.session.motion.is_on;
+        assert_eq!(is_moving(bench), is_moving(first), "{how}");
+    };
+    for (scene, shape) in [("rotating-cube", Some("cube")), ("subtle-pill", Some("pill")), ("trilogy", None)]
+    {
+        let first = started(scene.into());
+        let path = folder.path().join(format!("{scene}.toml"));
+        std::fs::write(&path, crate::io::library::scene(scene).unwrap()).unwrap();
+        assert_alike(&started(path.clone()), &first, &format!("{scene} as a file"));
+        let mut dropped = Bench::new();
+        dropped.harness.state_mut().act(FileAction::Dropped(vec![path.clone()]));
+        dropped
+            .wait(|editor| !editor.model.document.work.copies.is_one_at_rest() || !editor.model.is_alone());
+        assert_alike(&dropped, &first, &format!("{scene} dropped"));
+        let Some(shape) = shape else { continue };
+        assert_alike(&started(shape.into()), &first, &format!("{shape} by its name"));
+        let path = folder.path().join(format!("{shape}.toml"));
+        std::fs::write(&path, crate::io::library::cut(shape).unwrap()).unwrap();
+        assert_alike(&started(path), &first, &format!("{shape} as a file"));
+        let mut chosen = Bench::new();
+        chosen.harness.state_mut().act(FileAction::Ask(Then::Library(shape.to_owned())));
+        chosen.harness.run_steps(3);
+        assert_alike(&chosen, &first, &format!("{shape} by its picture"));
+    }
+}
+
+#[test]
+fn scenes_glass_and_moved_copies_are_there_again_at_the_next_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = |file: Option<&str>| {
+        let setup =
+            Setup { safe: Some(folder.path().to_owned()), file: file.map(Into::into), ..Setup::default() };
+        let mut bench = Bench::with(setup);
+        bench.harness.run_steps(3);
+        bench
+    };
+    let end = |mut bench: Bench| {
+        let work = bench.editor().model.document.work.clone();
+        let shown = bench.editor().model.workspace.shown();
+        bench.harness.state_mut().act(FileAction::Close);
+        assert!(bench.editor().model.session.dialog.is_none(), "nothing is lost, so nothing is asked");
+        bench.harness.state_mut().act(FileAction::Ended);
+        drop(bench);
+        (work, shown)
+    };
+    for scene in ["subtle-pill", "trilogy", "plate"] {
+        let mut bench = start(Some(scene));
+        bench.harness.state_mut().model.session.motion.rest();
+        if scene != "trilogy" {
+            bench.harness.state_mut().act(Edit::LayOut(3));
+        }
+        bench.harness.state_mut().act(Edit::Setting(SettingChange::Glow(0.3)));
+        bench.harness.run_steps(3);
+        let (work, shown) = end(bench);
+        let again = start(None);
+        let model = &again.editor().model;
+        assert!(model.session.dialog.is_none(), "{scene}");
+        assert_eq!(model.document.work.design, work.design, "{scene}");
+        assert_eq!(model.document.work.copies, work.copies, "{scene}");
+        assert_eq!(model.document.work.settings, work.settings, "{scene}");
+        assert_eq!(model.document.work.companions.stones.len(), work.companions.stones.len(), "{scene}");
+        assert_eq!(model.workspace.shown(), shown, "{scene}");
+        assert!(
+            !model.document.is_changed() && !model.document.has_moved_copies() && !model.document.steps().0
+        );
+    }
+    // A design from a file is read from there, under the settings that it had.
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, crate::io::library::cut("oval").unwrap()).unwrap();
+    let mut bench = start(path.to_str());
+    bench.wait(|editor| editor.model.document.path().is_some());
+    bench.harness.state_mut().act(Edit::Setting(SettingChange::Exposure(1.5)));
+    bench.harness.run_steps(3);
+    end(bench);
+    let mut again = start(None);
+    again.wait(|editor| editor.model.document.path() == Some(&path));
+    assert_eq!(again.editor().model.document.work.settings.exposure, 1.5);
+    assert!(again.editor().model.workspace.shown().len() > 1);
 }
 
 #[test]
@@ -224,4 +329,23 @@ fn what_stands_beside_a_stone_is_found_after_a_crash() {
         again.companions.stones.iter().all(|s| std::sync::Arc::ptr_eq(&s.specimen, first)),
         "one for all"
     );
+}
+
+#[test]
+fn a_scene_has_its_own_name_in_the_window_and_in_the_names_of_files() {
+    let model = begun("halo-ring");
+    assert_eq!(
+        (model.document.title(), model.document.design_stem()),
+        ("Halo ring".into(), "modern-ideal".into())
+    );
+    let plan = export_plan(&model);
+    assert_eq!((plan.stem.as_str(), plan.shot.title.as_str()), ("halo-ring", "Halo ring"));
+    // The view of a scene is tilted by some fraction of a degree, which the names of files round.
+    for (_, viewing) in plan.parts() {
+        let suffix = viewing.viewpoint.suffix();
+        assert!(
+            suffix.split('-').all(|part| part.split_once('.').is_none_or(|(_, digits)| digits.len() < 4)),
+            "{suffix}"
+        );
+    }
 }

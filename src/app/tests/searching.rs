@@ -2,7 +2,9 @@
 
 use super::fitting::pick;
 use super::*;
+use crate::app::model::action::Edit;
 use crate::app::model::cut_search::{EndedSearch, SearchEnd, SearchState};
+use crate::app::model::render_settings::SettingChange;
 use crate::cut::Design;
 use egui::{Role, vec2};
 use egui_kittest::kittest::NodeT;
@@ -164,14 +166,14 @@ fn undo_in_a_search_ends_it_and_takes_it_back() {
 fn another_exposure_does_not_stop_a_search_and_is_a_step_of_its_own() {
     let mut bench = begun();
     let before = given(&bench);
-    bench.harness.state_mut().act(crate::app::model::action::Edit::Exposure(1.0));
+    bench.harness.state_mut().act(Edit::Setting(SettingChange::Exposure(1.0)));
     bench.harness.run_steps(3);
     assert!(bench.editor().model.session.search.running().is_some());
     bench.click("Discard");
     assert_eq!(*design(&bench), before);
-    assert_eq!(bench.editor().model.document.work.exposure, 1.0);
+    assert_eq!(bench.editor().model.document.work.settings.exposure, 1.0);
     bench.choose("Edit", "Undo");
-    assert_eq!(bench.editor().model.document.work.exposure, 0.0);
+    assert_eq!(bench.editor().model.document.work.settings.exposure, 0.0);
 }
 
 #[test]
@@ -181,7 +183,6 @@ fn another_document_ends_the_search() {
     use crate::app::model::dialog::Then;
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("oval".to_owned())));
     bench.harness.run_steps(4);
-    bench.click("Don't save");
     bench.settle();
     let oval = design(&bench).clone();
     assert!(matches!(state(bench.editor()), SearchState::Choosing));

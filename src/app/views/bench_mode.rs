@@ -3,11 +3,12 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::cutting::{CuttingProgress, CuttingStep, steps};
+use crate::app::polygons;
 use crate::cut::{Cut, TierZone, Tiers};
 use crate::math::{Plane, Polytope};
 use egui::{
-    Button, CentralPanel, Color32, DragValue, Key, Pos2, Rect, RichText, ScrollArea, Sense, Shape, Stroke,
-    Ui, WidgetInfo, pos2, vec2,
+    Button, CentralPanel, Color32, DragValue, Key, Mesh, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 /// The size of the angle, points.
@@ -153,6 +154,9 @@ fn plan(tiers: &Tiers, (step, now, design): (&CuttingStep, &CuttingProgress, &st
             Some(_) => ui.visuals().selection.bg_fill,
             None => ui.visuals().faint_bg_color,
         };
-        painter.add(Shape::convex_polygon(corners, fill, line));
+        let mut face = Mesh::default();
+        polygons::fill(&mut face, corners.iter().copied(), fill);
+        painter.add(face);
+        painter.extend(polygons::closed_line(&corners, line));
     }
 }

@@ -55,16 +55,17 @@ fn can_hold(model: &Model) -> bool {
     work.copies.poses.len() > 1 || !work.companions.is_empty()
 }
 
-/// Returns the pose of a stone, in girdle radii of the design.
+/// Returns the pose of a stone in renders, in girdle radii of the design.
 fn pose(model: &Model, number: usize) -> Option<Pose> {
     let poses = &model.document.work.copies.poses;
     let beside = || model.companions().stones.get(number - poses.len()).map(|stone| stone.pose);
-    poses.get(number).copied().or_else(beside)
+    poses.get(number).map(|pose| model.in_render().after(pose)).or_else(beside)
 }
 
-/// Returns the edit that moves a stone to a pose, which is in girdle radii of the design.
+/// Returns the edit that moves a stone to a pose in renders, which is in girdle radii of the design.
 fn placed(model: &Model, number: usize, pose: Pose) -> Edit {
     let copies = model.document.work.copies.poses.len();
+    let pose = Pose { at: pose.at - model.in_render().at, ..pose };
     match number.checked_sub(copies) {
         None => Edit::Copy(number, pose),
         Some(companion) => {
@@ -97,7 +98,7 @@ pub fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneVie
         return;
     }
     let Some(FoundStone { number, specimen, pose, facet }) = found(cx, sight, at) else { return };
-    sight.outline(ui, specimen.solid(), facet, |corner| pose.place(corner));
+    sight.outline_face(ui, &specimen.body, facet, |corner| pose.place(corner));
     let (copies, facet) = (cx.model.document.work.copies.poses.len(), specimen.body.name(facet));
     cx.tools.attention.message = match number < copies {
         true => format!("copy {} of {copies}: {facet}", number + 1),

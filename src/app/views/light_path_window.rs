@@ -52,11 +52,11 @@ fn contents(model: &Model, tools: &mut ViewTools, ui: &mut Ui) {
         );
         return;
     }
-    let view = model.workspace.view(pane);
+    let view = model.view(pane);
     let specimen = model.document.specimen();
     match tools.probe.of(specimen).path(&view, at) {
         Some(path) => {
-            let scope = zones(shows, model.document.work.head);
+            let scope = zones(shows, model.document.work.settings.head);
             tools.following.view.show(ui, &specimen.body, &path, &scope, &view);
         }
         None => {

@@ -6,7 +6,8 @@ use super::pane_context::{PaneContext, focus};
 use super::view_menu::attend;
 use crate::app::arrows;
 use crate::app::liquid::{LightMotion, Liquid};
-use crate::app::model::action::ViewAction;
+use crate::app::model::action::{Edit, ViewAction};
+use crate::app::model::render_settings::SettingChange;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo};
@@ -20,7 +21,8 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", cx.shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    let mut liquid = cx.model.workspace.liquid;
+    let before = cx.model.liquid();
+    let mut liquid = before;
     if response.dragged_by(PointerButton::Primary) {
         let by = response.drag_delta() / body.size();
         liquid.drag(DVec2::new(by.x.into(), by.y.into()));
@@ -32,8 +34,12 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
             liquid.drag(DVec2::new(way.x, -way.y) * STEP);
         }
     }
+    let own = cx.model.document.work.settings.liquid;
+    let moved = Liquid { light_from: own.light_from, ..liquid };
+    cx.actions.push_changed(&own, moved, |liquid| Edit::Setting(SettingChange::Liquid(Box::new(liquid))));
+    // Where the light follows the pointer or time, it moves without steps of undo.
     move_light(cx, ui, &response, &mut liquid);
-    cx.actions.push_changed(&cx.model.workspace.liquid, liquid, ViewAction::Liquid);
+    cx.actions.push_changed(&before.light_from, liquid.light_from, ViewAction::LiquidLight);
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     if let Some(shown) = cx.shown(Which::Present).filter(|shown| shown.shot.shows == cx.shows) {
         shown.paint(ui.painter(), body);

@@ -40,7 +40,7 @@ fn liquid(
 fn refracted(model: &Model, tools: &ViewTools, slot: Slot) -> Option<LookupRequest> {
     let shown = tools.gallery.traced.get(&slot)?;
     let map = shown.taken.map.clone()?;
-    let behind = backdrop(model.workspace.background().as_ref());
+    let behind = backdrop(model.document.work.settings.background().as_ref());
     let moved = model.session.flowing[slot.0].moved;
     Some(LookupRequest { shot: shown.shot.clone(), grade: shown.grade, map: Some((map, moved)), behind })
 }

@@ -2,10 +2,12 @@
 //! click there ends it.
 
 use super::pane_context::PaneContext;
+use crate::app::menus::menu_button;
 use crate::app::model::Model;
 use crate::app::model::action::{Action, Edit, ViewAction};
 use crate::app::model::command::Command;
 use crate::app::model::eye::Eye;
+use crate::app::model::render_settings::SettingChange;
 use crate::app::model::workspace::Pane;
 use crate::app::shows::Shows;
 use crate::render::USUAL_BOUNCES;
@@ -31,17 +33,18 @@ impl Mode {
     /// Returns the modes that are on in a view.
     pub fn of(model: &Model, pane: usize) -> Vec<Self> {
         let workspace = &model.workspace;
-        let Pane { shows, own, is_near } = workspace.panes[pane];
+        let Pane { shows, own, is_near, .. } = workspace.panes[pane];
         if !shows.is_seen() {
             return vec![];
         }
         let (eye, scope) = (*workspace.eye(pane), shows.scoped());
         let takes_head = scope.as_ref().is_some_and(|scope| scope.takes_head);
-        let head = model.document.work.head;
-        let strength = if shows == Shows::Render { workspace.strength() } else { 1.0 };
-        let bounces = if shows == Shows::Render { workspace.bounces } else { USUAL_BOUNCES };
-        let missing =
-            workspace.missing_background().filter(|_| matches!(shows, Shows::Render | Shows::Refraction));
+        let settings = &model.document.work.settings;
+        let head = settings.head;
+        let shows_background = matches!(shows, Shows::Render | Shows::Refraction);
+        let strength = if shows_background { settings.strength() } else { 1.0 };
+        let bounces = if shows == Shows::Render { settings.bounces } else { USUAL_BOUNCES };
+        let missing = settings.missing_background().filter(|_| shows_background);
         let overlay =
             workspace.overlay.clone().filter(|_| shows.takes_overlay() && workspace.overlay().is_some());
         [
@@ -66,7 +69,7 @@ impl Mode {
             }),
             (head > 0.0 && takes_head).then(|| {
                 let meaning = "The observer's head blocks light, here and in the figures.";
-                mode(format!("head {head:.1}°"), meaning, Edit::Head(0.0))
+                mode(format!("head {head:.1}°"), meaning, Edit::Setting(SettingChange::Head(0.0)))
             }),
             (workspace.glare && !workspace.strongest && scope.is_some()).then(|| {
                 let meaning =
@@ -77,12 +80,16 @@ impl Mode {
             (bounces < USUAL_BOUNCES).then(|| {
                 let meaning =
                     "Light is followed through no more bounces than this; the rest of the light is dark.";
-                mode(format!("bounces ≤ {bounces}"), meaning, ViewAction::Bounces(USUAL_BOUNCES))
+                mode(
+                    format!("bounces ≤ {bounces}"),
+                    meaning,
+                    Edit::Setting(SettingChange::Bounces(USUAL_BOUNCES)),
+                )
             }),
             (strength < 1.0).then(|| {
                 let meaning =
                     "Below 1, the refracted ray is mixed with the straight ray, which is not physics.";
-                mode(format!("strength {strength:.3}"), meaning, ViewAction::Strength(1.0))
+                mode(format!("strength {strength:.3}"), meaning, Edit::Setting(SettingChange::Strength(1.0)))
             }),
         ]
         .into_iter()
@@ -96,7 +103,7 @@ fn missing_background(name: &str) -> Mode {
     let meaning = "The file of the background cannot be read, so nothing is behind the stone, and the strength of \
                    refraction is 1.";
     let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
-    mode(format!("{name} is missing"), meaning, ViewAction::Behind(None))
+    mode(format!("{name} is missing"), meaning, Edit::Setting(SettingChange::Background(None)))
 }
 
 /// Draws the names of a view's modes in a row; a menu at its end holds those that `width` points have no room for.
@@ -118,7 +125,8 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
         }
     }
     if shown < modes.len() {
-        let menu = ui.menu_button(RichText::new(rest_label(modes.len() - shown)).small(), |ui| {
+        let rest = RichText::new(rest_label(modes.len() - shown)).small();
+        let menu = menu_button(ui, rest, |ui| {
             for (k, (name, mode)) in chips().skip(shown) {
                 if chip(ui, name, mode) {
                     ended = Some(k);

@@ -1,7 +1,7 @@
 //! The view of the stone in a pane, and the conversion between points of its picture and of the window.
 
 use crate::math::SolidRef;
-use crate::scene::{Film, View};
+use crate::scene::{Body, Film, View};
 use crate::trace::ray::Camera;
 use egui::{Color32, Pos2, Rect, Stroke, Ui, vec2};
 use glam::{DMat2, DVec2, DVec3};
@@ -40,6 +40,14 @@ impl PaneView {
     pub fn place(&self, other: &Film) -> Rect {
         let corner = |pixel| self.point(other.image_from_pixels(pixel));
         Rect::from_two_pos(corner(DVec2::ZERO), corner(other.size.map(f64::from).into()))
+    }
+
+    /// Outlines the facet of a body under the pointer, whose points `place` carries to the frame of the view. The parts of
+    /// a smooth glass shape are no facets, and have no outline.
+    pub fn outline_face(&self, ui: &Ui, body: &Body, facet: u32, place: impl Fn(DVec3) -> DVec3) {
+        if !matches!(body, Body::Glass(_)) {
+            self.outline(ui, body.solid(), facet, place);
+        }
     }
 
     /// Outlines a facet of a solid, whose points `place` carries to the frame of the view.

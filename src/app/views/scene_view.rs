@@ -22,7 +22,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    let (eye, view) = (cx.eye(), model.workspace.view(cx.pane));
+    let (eye, view) = (cx.eye(), model.view(cx.pane));
     let fit = model.fit(shows, &view);
     let (film, scale) = (eye.film(size, &fit), ui.pixels_per_point());
     let sight = PaneView { view, film, middle: fit.middle, body, scale };
@@ -195,10 +195,10 @@ pub fn zones(shows: Shows, head: f64) -> Scope {
 fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) else { return };
     let specimen = cx.model.document.specimen();
-    let scope = zones(cx.shows, cx.model.document.work.head);
+    let scope = zones(cx.shows, cx.model.document.work.settings.head);
     let found = cx.tools.probe.of(specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
     let Some(found) = found else { return };
-    sight.outline(ui, specimen.solid(), found.facet, |corner| corner);
+    sight.outline_face(ui, &specimen.body, found.facet, |corner| corner);
     cx.tools.attention.message = found.message();
     tier_hand::hint(cx, ui, sight, at);
 }

@@ -133,7 +133,8 @@ fn draw(cx: &mut PaneContext, ui: &Ui, sight: &PaneView, drag: &TierDrag) {
         Some(_) => tier.meet.as_ref().map_or("at a corner that no meet names".to_owned(), Meet::to_string),
         None => "drag to a corner to meet it, with Ctrl past it".to_owned(),
     };
-    cx.tools.attention.message = format!("{}: {mm:.3} mm from the origin · {there}", tier.name());
+    cx.tools.attention.message =
+        format!("{}: {mm:.3} mm from the origin · {there}", tiers.names()[drag.facet.0]);
 }
 
 /// Shows by the pointer that the facet under it can be dragged.

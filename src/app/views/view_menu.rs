@@ -1,7 +1,7 @@
 //! The menu of a view, which the right mouse button opens.
 
 use super::pane_context::PaneContext;
-use crate::app::menus::choose;
+use crate::app::menus::{choose, menu_button, within_window};
 use crate::app::model::action::{DialogAction, ViewAction};
 use crate::app::model::command::Command;
 use crate::app::shows::Shows;
@@ -32,7 +32,7 @@ fn can_copy(cx: &PaneContext) -> bool {
 pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
     response.context_menu(|ui| {
         cx.tools.attention.menu = Some(cx.pane);
-        contents(cx, ui);
+        within_window(ui, |ui| contents(cx, ui));
     });
     cx.actions.push_if(response.double_clicked(), ViewAction::Enlarge(cx.pane));
     if is_hovered {
@@ -42,19 +42,19 @@ pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
 
 fn contents(cx: &mut PaneContext, ui: &mut Ui) {
     let (shows, pane, workspace) = (cx.shows, cx.pane, &cx.model.workspace);
-    ui.menu_button("Show", |ui| {
+    menu_button(ui, "Show", |ui| {
         for other in Shows::ALL {
             let entry = ui.selectable_label(shows == other, other.name()).on_hover_text(other.meaning());
             choose(cx.actions, ui, &entry, ViewAction::Show(pane, other));
         }
     });
     if shows.takes_overlay() {
-        ui.menu_button("Overlays", |ui| OVERLAYS.iter().for_each(|&command| cx.entry(ui, command)));
+        menu_button(ui, "Overlays", |ui| OVERLAYS.iter().for_each(|&command| cx.entry(ui, command)));
     }
     ui.separator();
     cx.entry(ui, Command::CopyPicture);
     if can_copy(cx) {
-        ui.menu_button("Copy picture at size", |ui| sizes(cx, ui));
+        menu_button(ui, "Copy picture at size", |ui| sizes(cx, ui));
     }
     if Shows::EXPORTED.contains(&shows) {
         let entry = ui.button("Export this view…");

@@ -4,13 +4,14 @@
 use super::pacer::FramePacer;
 use super::storage::FileStorage;
 use super::surface::WindowSurface;
-use super::{ID, WindowError, viewport, without_place};
+use super::{ID, LEAST, WindowError, viewport, without_place};
 use crate::app::editor::Editor;
 use crate::app::painter::Painter;
 use crate::app::setup::Setup;
 use eframe::{App, Storage};
 use egui::{
     Context, Event, FullOutput, ViewportBuilder, ViewportCommand, ViewportEvent, ViewportId, ViewportInfo,
+    vec2,
 };
 use egui_winit::winit::application::ApplicationHandler;
 use egui_winit::winit::event::{StartCause, WindowEvent};
@@ -24,6 +25,10 @@ use std::time::{Duration, Instant};
 /// The keys by which eframe keeps the window's geometry and egui's memory.
 const WINDOW: &str = "window";
 const MEMORY: &str = "egui";
+
+/// The height of a window's title and of the bars of a screen, approximately, in points: at its first start the window leaves
+/// them free.
+const AROUND: f32 = 40.0;
 
 /// The largest side of a texture, in pixels. The processor sets no limit; egui wants one for its fonts.
 const LARGEST: usize = 1 << 14;
@@ -181,7 +186,8 @@ impl OpenWindow {
             .display_handle()
             .is_ok_and(|handle| matches!(handle.as_raw(), RawDisplayHandle::Wayland(_)));
         let now = Instant::now();
-        let mut pacer = FramePacer::default();
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+        let mut pacer = FramePacer::new(cores);
         pacer.request(now);
         Ok(Self {
             context,
@@ -381,7 +387,8 @@ fn placed(settings: Option<WindowSettings>, context: &Context, events: &ActiveEv
         }
         None => {
             let first = viewport();
-            let size = first.inner_size.map_or(largest, |size| size.min(largest));
+            let free = (largest - vec2(0.0, AROUND)).max(vec2(LEAST[0], LEAST[1]));
+            let size = first.inner_size.map_or(largest, |size| size.min(free));
             first.with_inner_size(size)
         }
     };

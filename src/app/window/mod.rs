@@ -22,7 +22,7 @@ const ID: &str = "brillianteer";
 
 /// The window's first size and its least size, in points.
 const SIZE: [f32; 2] = [1440.0, 900.0];
-const LEAST: [f32; 2] = [800.0, 600.0];
+const LEAST: [f32; 2] = [640.0, 420.0];
 
 /// The environment variable that chooses the painter of the window: `card` or `processor`.
 const CHOICE: &str = "BRILLIANTEER_PAINTER";

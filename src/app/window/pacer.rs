@@ -9,8 +9,10 @@ const SHORTEST: Duration = Duration::from_micros(16_600);
 const HIDDEN: Duration = Duration::from_millis(100);
 
 /// The time when the next image is due, and the duration of the last one.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct FramePacer {
+    /// The number of the processor's cores, at least 1.
+    cores: u32,
     due: Option<Instant>,
     begun: Option<Instant>,
     took: Duration,
@@ -19,15 +21,23 @@ pub struct FramePacer {
 }
 
 impl FramePacer {
+    /// Makes the pacer of a window on a processor with so many cores.
+    pub fn new(cores: usize) -> Self {
+        let cores = u32::try_from(cores).unwrap_or(u32::MAX).max(1);
+        Self { cores, due: None, begun: None, took: Duration::ZERO, is_hidden: false }
+    }
+
     /// Requests an image at the time `when`; an earlier request stays in force.
     pub fn request(&mut self, when: Instant) {
         self.due = Some(self.due.map_or(when, |due| due.min(when)));
     }
 
-    /// Returns when the next image is to be painted, or `None` if none was requested. At least half of the time is left to
-    /// other work, because few cores have to trace light as well.
+    /// Returns when the next image is to be painted, or `None` if none was requested. Painting takes one core, and on a
+    /// processor with few cores those have to trace light as well: the time that is left to that after each image is the
+    /// time that the image took, divided by the number of the other cores.
     pub fn next(&self) -> Option<Instant> {
-        let shortest = if self.is_hidden { HIDDEN } else { SHORTEST.max(2 * self.took) };
+        let left = self.took / (self.cores - 1).max(1);
+        let shortest = if self.is_hidden { HIDDEN } else { SHORTEST.max(self.took + left) };
         self.due.map(|due| self.begun.map_or(due, |begun| due.max(begun + shortest)))
     }
 
@@ -55,7 +65,7 @@ mod tests {
     fn the_first_image_comes_at_once_and_the_next_leaves_time_for_other_work() {
         let start = Instant::now();
         let after = |millis: u64| start + Duration::from_millis(millis);
-        let mut frames = FramePacer::default();
+        let mut frames = FramePacer::new(2);
         assert_eq!(frames.next(), None);
         frames.request(after(9));
         frames.request(after(5));
@@ -75,5 +85,19 @@ mod tests {
         frames.begin(after(45));
         frames.request(after(500));
         assert_eq!(frames.next(), Some(after(500)));
+    }
+
+    #[test]
+    fn the_more_cores_there_are_the_less_time_an_image_leaves_to_them() {
+        let (start, took) = (Instant::now(), Duration::from_millis(60));
+        let next = |cores: usize| {
+            let mut frames = FramePacer::new(cores);
+            frames.begin(start);
+            frames.end(start + took);
+            frames.request(start);
+            frames.next().unwrap() - start
+        };
+        assert_eq!([0, 1, 2, 3, 5].map(|cores| next(cores).as_millis()), [120, 120, 120, 90, 75]);
+        assert!(next(64) < Duration::from_millis(61));
     }
 }

@@ -126,6 +126,12 @@ impl Corners {
         Self { all, edges, outlines }
     }
 
+    /// Returns the lengths of all edges except for those between two facets of the girdle.
+    pub fn edges_beside_girdle(&self, subject: &Subject) -> Vec<f64> {
+        let is_beside = |edge: &&CornerEdge| !edge.sides.iter().all(|&side| subject.is_girdle(side));
+        self.edges.iter().filter(is_beside).map(|edge| edge.length).collect()
+    }
+
     /// Returns the split meets and the near misses.
     pub fn findings(&self, subject: &Subject) -> Vec<Finding> {
         let splits: Vec<&CornerEdge> =

@@ -15,18 +15,22 @@ pub const THIN_FACET: f64 = 1.0;
 /// files.
 const ROUNDING_DEG: f64 = 1e-3;
 
-/// Returns the small facets, each beside the facets of its zone. Table and culet have no others beside them.
-pub(super) fn small(subject: &Subject) -> Vec<Finding> {
+/// Returns the area of each facet of crown, girdle and pavilion in percent of the median area of its zone. Table and culet
+/// have no others beside them.
+pub(super) fn relative_areas(subject: &Subject) -> Vec<(usize, f64)> {
     let areas: Vec<f64> =
         subject.facets().iter().map(|facet| subject.given.stone.facet_area(facet)).collect();
     let zones = [TierZone::Crown, TierZone::Girdle, TierZone::Pavilion];
     let of_zone = |zone| {
         let facets: Vec<usize> = (0..areas.len()).filter(|&facet| subject.zones[facet] == zone).collect();
         let median = median(facets.iter().map(|&facet| areas[facet]).collect());
-        let percent = |facet: usize| 100.0 * areas[facet] / median;
-        let small = facets.into_iter().map(|facet| (facet, percent(facet)));
-        small.filter(|(_, size)| *size < SMALL_FACET).collect::<Vec<_>>()
+        facets.into_iter().map(|facet| (facet, 100.0 * areas[facet] / median)).collect::<Vec<_>>()
     };
+    zones.into_iter().flat_map(of_zone).collect()
+}
+
+/// Returns the small facets, each beside the facets of its zone.
+pub(super) fn small(subject: &Subject) -> Vec<Finding> {
     let finding = |(facet, size)| Finding {
         kind: FindingKind::SmallFacet,
         points: vec![subject.middle(facet)],
@@ -35,7 +39,8 @@ pub(super) fn small(subject: &Subject) -> Vec<Finding> {
         threshold: SMALL_FACET,
         unit: FindingUnit::PercentOfMedianArea,
     };
-    zones.into_iter().flat_map(of_zone).map(finding).collect()
+    let small = relative_areas(subject).into_iter().filter(|(_, size)| *size < SMALL_FACET);
+    small.map(finding).collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

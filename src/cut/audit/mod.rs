@@ -10,6 +10,7 @@ mod corners;
 mod facets;
 mod finding;
 mod girdle;
+mod least;
 mod subject;
 mod symmetry;
 
@@ -17,6 +18,7 @@ pub use corners::{NEAR_MISS, SAME_CORNER, SPLIT_MEET};
 pub use facets::{SMALL_FACET, THIN_FACET};
 pub use finding::{Finding, FindingKind, FindingUnit};
 pub use girdle::UNEVEN_GIRDLE;
+pub use least::SmallestParts;
 pub use subject::AuditSubject;
 pub use symmetry::{MOST_KEEP, OFF_SYMMETRY};
 

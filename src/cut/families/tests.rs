@@ -153,7 +153,7 @@ fn length_to_width_is_as_given_and_half_the_diameter_is_one() {
         }
         // A stone that is read from another format is measured by its hull, and must have the same size.
         let outline = hull(vertices.iter().map(|corner| corner.truncate()).collect());
-        let Some(Calipers { width, middle, .. }) = Calipers::along_mirror(&outline) else { return Ok(false) };
+        let Some(Calipers { width, middle, .. }) = Calipers::of_stone(&outline) else { return Ok(false) };
         let diameter = diameter(&outline, middle, width);
         prop_assert!((diameter - 2.0).abs() < 1e-9, "{diameter} in {size}");
         Ok(true)

@@ -1,7 +1,7 @@
 //! Finds which way is up as a person would: by the file's own axes where a facet is square to them, by a girdle, by symmetry
 //! about the axis, by a crown that is flatter than the pavilion, and by the size of the table.
 
-use super::cues::Cues;
+use super::cues::{Cues, Slack};
 use super::error::FromMeshError;
 use super::even::{self, FacetParts, Match};
 use super::up::Up;
@@ -51,6 +51,11 @@ mod weight {
     pub const BASE: f64 = 0.15;
     /// A stone that is all pavilion, without a crown.
     pub const FLAT: f64 = 0.5;
+    /// A stone that is taller than wide, as one that lies on its side. It counts against the direction, unless rotations of
+    /// three or more turns carry the facets onto one another, which they do about no other axis of a stone.
+    pub const TALL: f64 = 0.6;
+    /// A drop that is all upper part, as if it hung from there.
+    pub const DROP: f64 = 0.25;
     /// The direction is an axis of the file and fits the shape.
     pub const OWN_AXIS: f64 = 0.4;
     /// The direction is the axis that is up by the custom of the file's format. The other axis that is often up
@@ -64,6 +69,10 @@ const MEANT: f64 = 0.01;
 /// A facet of this part of the outline's area is a base.
 const WHOLE: f64 = 0.97;
 
+/// The heights, in widths, below which a stone is certainly not tall, and above which it certainly is. Stones are 0.3 to 0.85
+/// widths deep; one that lies on its side is as many times taller as it is less deep than wide.
+const TALL: [f64; 2] = [0.8, 1.25];
+
 /// An axis of the file without a facet square to it fits the shape if the girdle takes more than this part of the outline,
 /// or symmetry more than this part of the facets' area.
 const FITS: f64 = 0.8;
@@ -71,6 +80,16 @@ const FITS: f64 = 0.8;
 /// A direction whose shape scores lower than the best by less than this leaves a doubt, unless it lies within
 /// [`PUT_ALONG`] of the best.
 const DOUBTFUL: f64 = 0.15;
+
+/// The same for a direction that the file's axes make less likely as well.
+const LESS_DOUBTFUL: f64 = 0.05;
+
+/// The least difference between the scores of the file's axes by which they make a direction less likely.
+const LESS_LIKELY: f64 = 0.2;
+
+/// Cues that differ by less than this, or by less than so many noises per width, are equal.
+const ALIKE: f64 = 1e-3;
+const ALIKE_NOISES: f64 = 4.0;
 
 /// Another direction that may be up as well.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,8 +108,9 @@ pub(super) struct Aim {
     pub doubt: Option<Doubt>,
 }
 
-/// Finds the axis, unless it is given. `parts` are the facets of the solid, in the same order, about its middle.
-pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up) -> Result<Aim, FromMeshError> {
+/// Finds the axis, unless it is given. `parts` are the facets of the solid, in the same order, about its middle; `noise` is
+/// the distance by which corners of the surface lie off the solid.
+pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up, noise: f64) -> Result<Aim, FromMeshError> {
     let custom = match up {
         Up::Found => DVec3::Z,
         Up::FoundBy(custom) => custom,
@@ -98,23 +118,22 @@ pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up) -> Result<Aim, F
         Up::Known(up) => return Ok(known(solid, up)),
         Up::Posed(pose) => return Ok(known(solid, pose.turn.inverse() * DVec3::Z)),
     };
-    let mut seen: Vec<Seen> =
-        directions(solid).into_iter().filter_map(|up| Seen::of(Cues::of(solid, up)?, custom)).collect();
+    let slack = Slack::of_noise(noise);
+    let cues = directions(solid).into_iter().filter_map(|up| Cues::of(solid, up, slack));
+    let mut seen: Vec<Seen> = cues.filter_map(|cues| Seen::of(cues, custom)).collect();
     let best_first = |a: &Seen, b: &Seen| b.score().total_cmp(&a.score());
     seen.sort_by(best_first);
     seen.truncate(MOST_CLOSE);
     seen.iter_mut().for_each(|seen| seen.look_closely(parts));
     seen.sort_by(best_first);
     let Some(best) = seen.first() else { return Ok(Aim { axis: custom, table: None, doubt: None }) };
-    let might = |other: &&Seen| {
-        other.shape > best.shape - DOUBTFUL
-            && (other.cues.up - best.cues.up).length() >= PUT_ALONG
-            && !is_alike(&other.cues, &best.cues)
-    };
-    let doubt = seen.iter().skip(1).find(might).map(|other| Doubt { other: other.cues.up });
-    let table = best.cues.table;
-    let axis = table.map_or(best.cues.up, |table| solid.facets()[table].plane.normal);
-    Ok(Aim { axis, table, doubt })
+    let doubt = seen.iter().skip(1).find(|other| other.may_be(best));
+    let Cues { up, table, .. } = best.cues;
+    Ok(Aim {
+        axis: slack.normal(solid, up).unwrap_or(up),
+        table,
+        doubt: doubt.map(|other| Doubt { other: other.cues.up }),
+    })
 }
 
 /// A direction with its scores.
@@ -138,10 +157,18 @@ impl Seen {
         self.shape + self.own
     }
 
-    /// Adds the score of symmetry, which takes longer to compute.
+    /// Returns whether this direction may be up as well as the best.
+    fn may_be(&self, best: &Self) -> bool {
+        let is_less_likely = self.own < best.own - LESS_LIKELY;
+        let least = best.shape - if is_less_likely { LESS_DOUBTFUL } else { DOUBTFUL };
+        let apart = (self.cues.up - best.cues.up).length();
+        self.shape > least && apart >= PUT_ALONG && !is_alike(&self.cues, &best.cues)
+    }
+
+    /// Adds the scores of symmetry, which takes longer to compute, and of height.
     fn look_closely(&mut self, parts: &FacetParts) {
-        let even = evenness(parts, self.cues.up);
-        self.shape += weight::EVEN * even.powi(3);
+        let Evenness { even, many } = evenness(parts, self.cues.up);
+        self.shape += weight::EVEN * even.powi(3) - weight::TALL * tall(&self.cues) * (1.0 - many.powi(3));
         self.own = own(&self.cues, even, self.custom);
     }
 }
@@ -159,7 +186,7 @@ fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
 
 /// Returns the axis where up is known exactly. A facet square to the axis is the table.
 fn known(solid: &Polytope, axis: DVec3) -> Aim {
-    Aim { axis, table: Cues::of(solid, axis).and_then(|cues| cues.table), doubt: None }
+    Aim { axis, table: Cues::of(solid, axis, Slack::LEAST).and_then(|cues| cues.table), doubt: None }
 }
 
 /// Compares facets by area; of equals the earlier counts as the larger.
@@ -170,7 +197,8 @@ fn compare(solid: &Polytope, a: usize, b: usize) -> Ordering {
 
 /// Returns whether two directions show the same stone, as those of a cube do.
 fn is_alike(a: &Cues, b: &Cues) -> bool {
-    let near = |x: f64, y: f64| (x - y).abs() < 1e-3;
+    let within = ALIKE + ALIKE_NOISES * a.noise.max(b.noise);
+    let near = |x: f64, y: f64| (x - y).abs() < within;
     near(a.girdle, b.girdle)
         && near(a.table_area, b.table_area)
         && near(a.culet_area, b.culet_area)
@@ -179,7 +207,7 @@ fn is_alike(a: &Cues, b: &Cues) -> bool {
         && near(a.length, b.length)
 }
 
-/// Returns the score of the shape for a direction, without symmetry.
+/// Returns the score of the shape for a direction, without symmetry and height, which symmetry excuses.
 fn shape(cues: &Cues) -> f64 {
     let worth = |area: f64| weight::TABLE * (area / MEANT).min(1.0) + weight::TABLE_AREA * area.min(1.0);
     let (table, flat) = match (cues.table_area > WHOLE, cues.culet_area > WHOLE) {
@@ -187,9 +215,16 @@ fn shape(cues: &Cues) -> f64 {
         (false, true) => (weight::BASE, 0.5),
         // A prism stands on one of its ends.
         (true, true) => (weight::TABLE, 0.5),
+        // A drop hangs from its tip, which is the longer part.
+        (false, false) if cues.is_drop() => (0.0, weight::DROP / weight::FLAT * cues.crown),
         (false, false) => (worth(cues.table_area) - worth(cues.culet_area), 1.0 - cues.crown),
     };
     weight::GIRDLE * cues.girdle.min(1.0) + table + weight::FLAT * flat
+}
+
+/// Returns 0 for a stone that is not tall, 1 for one that certainly is.
+fn tall(cues: &Cues) -> f64 {
+    ((cues.height - TALL[0]) / (TALL[1] - TALL[0])).clamp(0.0, 1.0)
 }
 
 /// Returns the score of the file's own axes; `even` is the part of the facets' area that is symmetric.
@@ -259,19 +294,34 @@ fn principal(solid: &Polytope) -> Vec<DVec3> {
     eigen(spread).1.to_vec()
 }
 
-/// Returns the largest part of the area that some turn about an axis carries onto other facets.
-pub(super) fn evenness(parts: &FacetParts, axis: DVec3) -> f64 {
+/// The largest parts of the area that turns about an axis carry onto other facets.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Evenness {
+    /// The part that some turn carries.
+    pub even: f64,
+    /// The part that some turn by a third of a full one or less carries.
+    pub many: f64,
+}
+
+/// The numbers of turns that are tried.
+const FOLDS: [u32; 10] = [2, 3, 4, 5, 6, 7, 8, 9, 10, 12];
+
+/// Returns the largest parts of the area that turns about an axis carry onto other facets.
+pub(super) fn evenness(parts: &FacetParts, axis: DVec3) -> Evenness {
     let areas = &parts.areas;
     if areas.len() > MOST_COMPARED {
-        return 0.0;
+        return Evenness::default();
     }
     // Facets of the girdle are compared less closely, for which the axis must be upright here.
     let planes = even::upright(&parts.planes, axis).planes;
     let loose = Match::loose(&planes);
-    let carried = |&fold: &u32| {
+    let carried = |fold: u32| {
         let turn = DQuat::from_rotation_z(std::f64::consts::TAU / f64::from(fold));
         let met = (0..planes.len()).filter(|&i| loose.find(&planes[i].placed(&Pose::turned(turn))).is_some());
         met.map(|i| areas[i]).sum::<f64>() / areas.iter().sum::<f64>()
     };
-    [2, 3, 4, 5, 6, 7, 8, 9, 10, 12].iter().map(carried).fold(0.0, f64::max)
+    let parts = FOLDS.map(|fold| (fold, carried(fold)));
+    let most =
+        |least: u32| parts.iter().filter(|part| part.0 >= least).map(|part| part.1).fold(0.0, f64::max);
+    Evenness { even: most(2), many: most(3) }
 }

@@ -1,11 +1,14 @@
 //! Gives the planes of a stone the symmetry that they have except for noise: each plane becomes the mean of all its
 //! images.
 //!
-//! A stone that is uneven by more than its noise keeps its planes. The corners of the surface decide: they must not
-//! lie much farther from the evened stone than from the one that was found.
+//! A stone that is uneven by more than its noise keeps its planes. The standard errors of a scan's planes decide (`likeness`).
+//! A model has few corners, whose noise is not known. There the corners must not lie much farther from the evened stone than
+//! from the one that was found.
 
+use super::evening::Evening;
+use super::likeness::Found;
 use super::outline::LEAST_UPRIGHT;
-use crate::math::faceting::{Faceted, deviation};
+use crate::math::faceting::{Faceted, PlaneError, deviation};
 use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -17,9 +20,16 @@ const MOST_TURNS: u32 = 24;
 /// less than this part of the largest. Noise causes far less, and facets differ by far more.
 const LOOSE: f64 = 0.05;
 
-/// The factor by which the corners may lie farther from the evened stone than from the one that was found, or the
-/// number of tolerances if that is more. Each facet of the found stone could follow the noise of its own corners.
+/// The factor by which the corners of a model may lie farther from the evened stone than from the one that was found, or the
+/// number of tolerances if that is more. Each facet of the found stone could follow the noise of its own few corners.
 const EVEN: f64 = 5.0;
+
+/// A surface with more corners than this for each facet is no model with corners only where facets meet. If the noise of its
+/// planes is not known, and their tolerance is above [`EXACT`], its planes stay as found.
+const MODELLED: usize = 12;
+
+/// The tolerance of planes whose corners deviate by no more than rounding, as a part of the size.
+const EXACT: f64 = 2e-6;
 
 /// The weight of differences in slope between girdle facets, which are thin, so that their slope is mostly noise.
 const THIN: f64 = 0.25;
@@ -80,6 +90,8 @@ pub(super) struct Even {
     pub planes: Vec<Plane>,
     /// The rotation from the frame of the planes that were found.
     pub turn: DQuat,
+    /// The shift after the rotation.
+    pub shift: DVec3,
     pub turns: u32,
     /// The azimuth of a mirror plane, radians; `None` without one.
     pub mirror: Option<f64>,
@@ -114,8 +126,10 @@ pub(super) struct FacetParts {
     middles: Vec<DVec3>,
     /// The corners of the surface.
     corners: Vec<DVec3>,
-    /// The greatest distance that the corners may have from an evened stone.
-    limit: f64,
+    /// The greatest distance that the corners may have from an evened stone; `None` where the planes stay as found.
+    limit: Option<f64>,
+    /// The standard errors of the planes of a scan.
+    errors: Option<Vec<PlaneError>>,
 }
 
 impl FacetParts {
@@ -123,6 +137,10 @@ impl FacetParts {
     pub fn about(found: &Faceted, middle: DVec3) -> Self {
         let about = |plane: &Plane| Plane::new(plane.normal, -plane.distance(middle));
         let solid = &found.polytope;
+        let errors =
+            found.faces.iter().map(|f| Some(f.error?.placed(&Pose { at: -middle, ..Pose::STILL }))).collect();
+        let is_modelled = found.surface.vertices.len() <= MODELLED * found.faces.len()
+            || found.tolerance <= EXACT * found.surface.size();
         let centre = |f: &Facet| solid.corners(f).sum::<DVec3>() / f.outline.len() as f64 - middle;
         Self {
             planes: found.faces.iter().map(|f| about(&f.plane)).collect(),
@@ -130,24 +148,20 @@ impl FacetParts {
             areas: solid.facets().iter().map(|f| solid.facet_area(f)).collect(),
             middles: solid.facets().iter().map(centre).collect(),
             corners: found.surface.vertices.iter().map(|&v| v - middle).collect(),
-            limit: EVEN * found.deviation.max(found.tolerance),
+            limit: is_modelled.then_some(EVEN * found.deviation.max(found.tolerance)),
+            errors,
         }
     }
 }
 
-/// Returns the planes with their axis upright, evened where the corners allow it. The axis may follow the symmetry, unless
+/// Returns the planes with their axis upright, evened where the noise allows it. The axis may follow the symmetry, unless
 /// it is fixed.
-pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
+pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool, evening: Evening) -> Even {
     let FacetParts { planes, areas, .. } = parts;
     let plain = upright(planes, axis);
-    if planes.len() > MOST_FACETS {
+    if planes.len() > MOST_FACETS || evening == Evening::AsFound {
         return plain;
     }
-    let fits = |even: &Even| {
-        let back: Vec<Plane> =
-            even.planes.iter().map(|p| p.placed(&Pose::turned(even.turn.inverse()))).collect();
-        Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &parts.corners) <= parts.limit)
-    };
     let tried = (1..=MOST_TURNS).rev().flat_map(|turns| {
         let axis = if is_fixed { axis } else { refined(planes, areas, axis, turns) };
         let plain = Even { turns, ..upright(planes, axis) };
@@ -155,13 +169,48 @@ pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
         [(turns, axis, mirror), (turns, axis, None)]
     });
     let wanted = tried.filter(|(turns, _, mirror)| *turns > 1 || mirror.is_some());
-    let mean =
-        wanted.filter_map(|(turns, axis, mirror)| averaged(&Even { turns, mirror, ..upright(planes, axis) }));
-    // Where girdle facets lie at different heights, putting them upright shifts them by different amounts, so they
-    // are averaged once more.
-    let both = mean.flat_map(|even| [averaged(&squared(&even, &parts.middles)), Some(even)]);
-    let mut fitting = both.flatten().filter(fits);
+    let start = wanted.map(|(turns, axis, mirror)| Even { turns, mirror, ..upright(planes, axis) });
+    let mut fitting = start.filter_map(|start| {
+        let images = Images::of(&start)?;
+        match &parts.errors {
+            Some(errors) => parts.likely(errors, &start, &images, is_fixed),
+            None => parts.near(&start, &images),
+        }
+    });
     fitting.next().unwrap_or(plain)
+}
+
+impl FacetParts {
+    /// Returns the even stone of a scan, with facets of the girdle upright if that is likely, where it is as likely as the
+    /// stone that was found.
+    fn likely(&self, errors: &[PlaneError], start: &Even, images: &Images, is_fixed: bool) -> Option<Even> {
+        let size = self.corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
+        let found = Found { planes: &self.planes, errors, size };
+        let square = |even: Even| {
+            let square = squared(&even, &self.middles);
+            let turned = even.planes.iter().zip(&square.planes).filter(|(a, b)| a.normal != b.normal).count();
+            // Each orbit of facets loses its slope.
+            (averaged(&square, images).unwrap_or(even), turned / images.maps.len())
+        };
+        let upright = found.likely(start, images, is_fixed, square);
+        upright.or_else(|| found.likely(start, images, is_fixed, |even| (even, 0)))
+    }
+
+    /// Returns the even stone of a model, where the model's corners lie nearly as close to it as to the stone that was found.
+    fn near(&self, start: &Even, images: &Images) -> Option<Even> {
+        let limit = self.limit?;
+        let fits = |even: &Even| {
+            let back: Vec<Plane> =
+                even.planes.iter().map(|p| p.placed(&Pose::turned(even.turn.inverse()))).collect();
+            Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &self.corners) <= limit)
+        };
+        let even = averaged(start, images)?;
+        // Where girdle facets lie at different heights, putting them upright shifts them by different amounts, so they
+        // are averaged once more.
+        let square = squared(&even, &self.middles);
+        let both = [Images::of(&square).and_then(|images| averaged(&square, &images)), Some(even)];
+        both.into_iter().flatten().find(fits)
+    }
 }
 
 /// Returns the planes turned so that the axis is +z.
@@ -170,6 +219,7 @@ pub(super) fn upright(planes: &[Plane], axis: DVec3) -> Even {
     Even {
         planes: planes.iter().map(|p| p.placed(&Pose::turned(turn))).collect(),
         turn,
+        shift: DVec3::ZERO,
         turns: 1,
         mirror: None,
     }
@@ -221,27 +271,66 @@ fn best_mirror(plain: &Even, areas: &[f64]) -> Option<f64> {
     tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, mirror)| mirror)
 }
 
-/// Returns each plane as the mean of its images, carried back; `None` where the symmetry does not carry planes onto planes.
-fn averaged(even: &Even) -> Option<Even> {
-    let list = Match::loose(&even.planes);
+/// The places of the planes that each map of a symmetry carries the planes to. The maps are the turns, and the turns after the
+/// mirror.
+pub(super) struct Images {
+    maps: Vec<Map>,
+}
+
+/// One map of a symmetry.
+struct Map {
+    /// The azimuth of the mirror that comes before the turn, radians; `None` without one.
+    mirror: Option<f64>,
+    turn: u32,
+    /// The place of the plane that each plane is carried to.
+    images: Vec<usize>,
+}
+
+impl Images {
+    /// Finds the images of a stone's planes; `None` where the symmetry does not carry planes onto planes.
+    pub fn of(even: &Even) -> Option<Self> {
+        let list = Match::loose(&even.planes);
+        let mirrors = std::iter::once(None).chain(even.mirror.map(Some));
+        let maps = mirrors.flat_map(|mirror| (0..even.turns).map(move |turn| (mirror, turn)));
+        let maps = maps.map(|(mirror, turn)| {
+            Some(Map { mirror, turn, images: list.permutation(even.mapped(mirror, turn))? })
+        });
+        Some(Self { maps: maps.collect::<Option<_>>()? })
+    }
+
+    /// Returns the number of equations that the symmetry sets for the planes' numbers, three for each plane, in a fixed frame.
+    pub fn constraints(&self) -> usize {
+        let planes = self.maps.first().map_or(0, |map| map.images.len());
+        let numbers = |plane: usize| {
+            let own = |is_mirror: bool| {
+                let maps = self.maps.iter().filter(|map| map.mirror.is_some() == is_mirror);
+                maps.filter(|map| map.images[plane] == plane).count()
+            };
+            // A level facet has its height alone, one across a mirror its slope and distance. Facets that are images of one
+            // another share their numbers.
+            let all = match (own(false), own(true)) {
+                (2.., _) => 1,
+                (_, 1..) => 2,
+                _ => 3,
+            };
+            (all * (own(false) + own(true))) as f64 / self.maps.len() as f64
+        };
+        3 * planes - (0..planes).map(numbers).sum::<f64>().round() as usize
+    }
+}
+
+/// Returns each plane as the mean of its images, carried back; `None` where a mean has no direction.
+pub(super) fn averaged(even: &Even, images: &Images) -> Option<Even> {
     let mut sums = vec![(DVec3::ZERO, 0.0); even.planes.len()];
-    let mirrors = std::iter::once(None).chain(even.mirror.map(Some));
-    let mut count = 0.0;
-    for mirror in mirrors {
-        for turn in 0..even.turns {
-            let map = even.mapped(mirror, turn);
-            let images = list.permutation(&map)?;
-            count += 1.0;
-            for (sum, &image) in sums.iter_mut().zip(&images) {
-                let back = match mirror {
-                    // A mirror followed by a turn is again a mirror, which is its own inverse.
-                    Some(_) => map(&even.planes[image]),
-                    None => even.mapped(None, even.turns - turn)(&even.planes[image]),
-                };
-                *sum = (sum.0 + back.normal, sum.1 + back.offset);
-            }
+    for Map { mirror, turn, images } in &images.maps {
+        // A mirror followed by a turn is again a mirror, which is its own inverse.
+        let back = even.mapped(*mirror, if mirror.is_some() { *turn } else { even.turns - turn });
+        for (sum, &image) in sums.iter_mut().zip(images) {
+            let plane = back(&even.planes[image]);
+            *sum = (sum.0 + plane.normal, sum.1 + plane.offset);
         }
     }
+    let count = images.maps.len() as f64;
     let plane = |(normal, offset): &(DVec3, f64)| {
         let unit = Plane::new(*normal, 0.0).normalized()?;
         Some(Plane::new(unit.normal, offset / count))
@@ -260,7 +349,7 @@ fn squared(even: &Even, middles: &[DVec3]) -> Even {
             _ => n,
         };
         // Each facet is turned about its middle, which does not move.
-        let middle = even.turn * *middle;
+        let middle = even.turn * *middle + even.shift;
         let foot = middle - p.distance(middle) * n;
         Plane::new(snapped, snapped.dot(foot)).normalized().unwrap_or(*p)
     };

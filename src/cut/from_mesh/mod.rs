@@ -8,6 +8,9 @@ mod aim;
 mod cues;
 mod error;
 mod even;
+mod evening;
+mod facet_error;
+mod likeness;
 mod name;
 mod outline;
 mod up;
@@ -22,6 +25,8 @@ use glam::DVec3;
 use aim::{Aim, aim};
 pub use aim::{Doubt, directions};
 pub use error::FromMeshError;
+pub use evening::Evening;
+pub use facet_error::FacetError;
 pub use up::Up;
 
 /// A stone that was found in a surface.
@@ -38,6 +43,8 @@ pub struct FromMesh {
     pub evened: Symmetry,
     /// The direction that was taken as up, in the surface's frame, a unit vector.
     pub up: DVec3,
+    /// The standard errors of the facets of a scan, in the order of the facets; empty where the surface is no scan.
+    pub errors: Vec<FacetError>,
     /// Another direction that may be up, where the shape leaves a doubt.
     pub doubt: Option<Doubt>,
 }
@@ -46,15 +53,16 @@ pub struct FromMesh {
 ///
 /// # Errors
 /// Fails where the direction up is zero or not finite, or where the facets enclose nothing once they are evened.
-pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
+pub fn from_mesh(found: &Faceted, up: Up, evening: Evening) -> Result<FromMesh, FromMeshError> {
     let posed = if let Up::Posed(pose) = up { Some(pose) } else { None };
+    let is_posed = posed.is_some();
     let middle = match posed {
         Some(pose) => pose.unplace(DVec3::ZERO) - found.centre,
         None => even::centroid(&found.polytope),
     };
     let parts = even::FacetParts::about(found, middle);
-    let Aim { axis, table, doubt } = aim(&found.polytope, &parts, up)?;
-    let even = even::evened(&parts, axis, posed.is_some());
+    let Aim { axis, table, doubt } = aim(&found.polytope, &parts, up, found.deviation.max(found.tolerance))?;
+    let even = even::evened(&parts, axis, posed.is_some(), evening);
     let upright = match posed {
         Some(pose) => outline::as_posed(&even, &pose),
         None => outline::placed(&even, &parts.areas)?,
@@ -62,12 +70,15 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
     let posed: Vec<Plane> = even.planes.iter().map(|p| p.placed(&upright)).collect();
     let polytope = Polytope::from_planes(&posed)?;
     let turn = upright.turn * even.turn;
-    let at = upright.at - upright.scale * (turn * (found.centre + middle));
+    let at = upright.place(even.shift) - upright.scale * (turn * (found.centre + middle));
     let pose = Pose { at, turn, ..upright };
     let points: Vec<DVec3> = found.surface.vertices.iter().map(|&v| pose.place(v + found.centre)).collect();
     let given = found.faces.iter().map(|f| f.name.clone()).collect::<Option<Vec<_>>>();
     let facets = name::named(&posed, table, given, upright.scale * found.tolerance);
+    let level = table.filter(|_| even.symmetry(upright.turn) == Symmetry::NONE && !is_posed);
+    let errors = errors(found, &pose, &facets, &posed, level);
     Ok(FromMesh {
+        errors,
         facets,
         pose,
         deviation: deviation(&polytope, &points),
@@ -75,4 +86,25 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
         up: axis,
         doubt,
     })
+}
+
+/// Returns the standard errors of the named facets of a scan, whose planes are among `posed` in the order of the found faces;
+/// none where the surface is no scan. `table` is the place of the table where its normal is the axis.
+fn errors(
+    found: &Faceted,
+    pose: &Pose,
+    facets: &[(String, Plane)],
+    posed: &[Plane],
+    table: Option<usize>,
+) -> Vec<FacetError> {
+    let placed = |place: usize| {
+        let error = found.faces[place].error?;
+        Some(error.placed(&pose.after(&Pose { at: found.centre, ..Pose::STILL })))
+    };
+    let axis = table.and_then(placed);
+    let of = |(name, plane): &(String, Plane)| {
+        let place = posed.iter().position(|other| other == plane)?;
+        Some(FacetError::of(name, plane, &placed(place)?, axis.as_ref().filter(|_| table != Some(place))))
+    };
+    facets.iter().filter_map(of).collect()
 }

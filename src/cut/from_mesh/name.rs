@@ -15,6 +15,9 @@ const SAME_OFFSET: f64 = 2e-3;
 /// one tolerance turns a facet that is a tenth of a radius wide by ten tolerances.
 const NOISE: f64 = 10.0;
 
+/// The additional noise of tiers that were cut unevenly: facets of a tier may differ by 0.1, 0.7 or 1.3 degrees.
+const WIDER: [f64; 3] = [0.0, 1e-3, 2e-3];
+
 /// A facet that leans less than this (sine) is level: the table or the culet.
 const LEVEL: f64 = 0.02;
 
@@ -32,7 +35,7 @@ pub(super) fn named(
     given: Option<Vec<String>>,
     noise: f64,
 ) -> Vec<(String, Plane)> {
-    let (crown, girdle, pavilion) = parts(planes, table, noise);
+    let (crown, girdle, pavilion) = tiered(planes, table, noise);
     let (above, below) = titles(planes, &crown, &pavilion);
     let mut found: Vec<(String, usize)> = table.map(|t| ("table".to_owned(), t)).into_iter().collect();
     for (title, tier) in above.into_iter().chain([("girdle".to_owned(), &girdle)]).chain(below) {
@@ -47,6 +50,19 @@ pub(super) fn named(
     let titles: Vec<String> = found.iter().map(|(title, place)| name(title, *place)).collect();
     let unique = names::unique(titles.iter().map(String::as_str));
     unique.into_iter().zip(&found).map(|(name, (_, place))| (name, planes[*place])).collect()
+}
+
+/// Returns the tiers as [`parts`] does. Where the facets of a round brilliant are so unevenly cut that its tiers fall apart, tiers
+/// may be wider.
+fn tiered(planes: &[Plane], table: Option<usize>, noise: f64) -> (Vec<Tier>, Tier, Vec<Tier>) {
+    let found = WIDER.map(|wider| parts(planes, table, noise + wider));
+    let is_known = |(crown, _, pavilion): &(Vec<Tier>, Tier, Vec<Tier>)| {
+        let below: Vec<&Tier> = pavilion.iter().filter(|tier| !is_culet(planes, tier)).collect();
+        is_brilliant(planes, crown, &below)
+    };
+    let place = found.iter().position(is_known).unwrap_or(0);
+    let [narrow, wide, widest] = found;
+    [narrow, wide, widest].into_iter().nth(place).unwrap_or_default()
 }
 
 /// Returns the tiers of the crown from the girdle up, the girdle, and the tiers of the pavilion from the girdle down.
@@ -94,9 +110,7 @@ fn titles<'a>(
     crown: &'a [Tier],
     pavilion: &'a [Tier],
 ) -> (Vec<Titled<'a>>, Vec<Titled<'a>>) {
-    let (culets, below): (Vec<&Tier>, Vec<&Tier>) = pavilion
-        .iter()
-        .partition(|tier| tier.len() == 1 && planes[tier[0]].normal.truncate().length() < LEVEL);
+    let (culets, below): (Vec<&Tier>, Vec<&Tier>) = pavilion.iter().partition(|tier| is_culet(planes, tier));
     let (above, mut titled): (Vec<Titled<'a>>, Vec<Titled<'a>>) = if is_brilliant(planes, crown, &below) {
         let titled = |(name, tier): (&str, &'a Tier)| (name.to_owned(), tier);
         let above = ["bezel", "star", "upper_half"].into_iter().zip([&crown[1], &crown[2], &crown[0]]);
@@ -109,6 +123,11 @@ fn titles<'a>(
     };
     titled.extend(culets.into_iter().map(|tier| ("culet".to_owned(), tier)));
     (above, titled)
+}
+
+/// Returns whether a tier below the girdle is a culet.
+fn is_culet(planes: &[Plane], tier: &Tier) -> bool {
+    tier.len() == 1 && planes[tier[0]].normal.truncate().length() < LEVEL
 }
 
 /// Returns the letters of a number: A, B, ... Z, AA, AB, ...

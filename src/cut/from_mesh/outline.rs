@@ -3,6 +3,7 @@
 use super::error::FromMeshError;
 use super::even::Even;
 use crate::cut::Outline;
+use crate::cut::outline::ROUND;
 use crate::math::{Calipers, Plane, Polytope, Pose, hull, span};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -10,10 +11,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Facets whose normals rise or fall by less than this (sine, 6 degrees) belong to the girdle. Steep steps of a pavilion
 /// lean more.
 pub(super) const LEAST_UPRIGHT: f64 = 0.104_528_463;
-
-/// An outline is round if its least width, along the directions that may become +x, is at least this part of the greatest. A
-/// decagon is round.
-const ROUND: f64 = 0.95;
 
 /// Azimuths that differ by less than this are the same, radians. Noise of a thousandth turns facets by less.
 const SAME_AZIMUTH: f64 = 0.02;
@@ -107,7 +104,7 @@ fn crown_azimuths(even: &Even) -> Vec<f64> {
 
 /// Returns the direction in which an outline is narrowest; `None` where it is as wide as long.
 fn narrow_axis(rim: &[DVec2]) -> Option<f64> {
-    let found = Calipers::of(rim).filter(|found| found.length > (1.0 + LONG) * found.width)?;
+    let found = Calipers::of_stone(rim).filter(|found| found.length > (1.0 + LONG) * found.width)?;
     Some(found.across.to_angle())
 }
 

@@ -60,7 +60,7 @@ fn found(surface: &Surface) -> Faceted {
 }
 
 fn again(facets: &[(String, Plane)], how: Spoilt, up: Up) -> FromMesh {
-    from_mesh(&found(&spoil(facets, how)), up).unwrap()
+    from_mesh(&found(&spoil(facets, how)), up, Evening::default()).unwrap()
 }
 
 /// Returns the largest angle between planes of the same name, degrees, and the largest difference of their offsets.
@@ -183,14 +183,14 @@ fn the_comparison_sees_a_facet_that_is_off() {
 fn up_may_be_given_and_must_be_a_direction() {
     let facets = RoundBrilliant { girdle_facets: 16, culet: 8.0, ..MODERN }.facets().unwrap();
     let seen = found(&spoil(&facets, PLAIN));
-    let down = from_mesh(&seen, Up::Given(DVec3::new(0.0, 0.01, -3.0))).unwrap();
+    let down = from_mesh(&seen, Up::Given(DVec3::new(0.0, 0.01, -3.0)), Evening::default()).unwrap();
     let table = down.facets.iter().find(|(name, _)| name == "table").unwrap();
     // Seen from below, the culet is the table, and the table the culet.
     assert!(table.1.offset > 0.7 && down.facets.iter().any(|(name, _)| name == "culet"));
     for bad in [DVec3::ZERO, DVec3::NAN] {
-        assert!(matches!(from_mesh(&seen, Up::Given(bad)), Err(FromMeshError::Up(_))));
+        assert!(matches!(from_mesh(&seen, Up::Given(bad), Evening::default()), Err(FromMeshError::Up(_))));
     }
-    let aslant = from_mesh(&seen, Up::Given(DVec3::new(1.0, 0.2, 0.4))).unwrap();
+    let aslant = from_mesh(&seen, Up::Given(DVec3::new(1.0, 0.2, 0.4)), Evening::default()).unwrap();
     assert!(aslant.facets.iter().all(|(name, _)| name != "table"));
 }
 
@@ -209,7 +209,7 @@ fn symmetry_counts_the_same_however_a_stone_lies() {
     assert_eq!(upright.facets().len(), planes.len());
     let counted = |turn: DQuat| {
         let polytope = upright.reframed(&Pose::turned(turn));
-        let face = |plane| Face { plane, area: 1.0, name: None };
+        let face = |plane| Face { plane, area: 1.0, name: None, error: None };
         let found = Faceted {
             surface: Surface::new(polytope.vertices().to_vec(), vec![]),
             centre: DVec3::ZERO,
@@ -219,7 +219,7 @@ fn symmetry_counts_the_same_however_a_stone_lies() {
             tolerance: 1e-6,
             change: None,
         };
-        aim::evenness(&even::FacetParts::about(&found, DVec3::ZERO), turn * DVec3::Z)
+        aim::evenness(&even::FacetParts::about(&found, DVec3::ZERO), turn * DVec3::Z).even
     };
     for turn in [DQuat::IDENTITY, DQuat::from_rotation_x(1.0), DQuat::from_rotation_y(1.7)] {
         assert!((counted(turn) - 1.0).abs() < 1e-12, "{turn}: {}", counted(turn));

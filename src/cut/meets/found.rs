@@ -2,7 +2,7 @@
 
 use super::super::tiers::{Tier, Tiers};
 use super::meet::{Meet, MeetPoint};
-use super::solve::{Bench, TierOutcome, cutting_order};
+use super::solve::{Bench, SolvedTiers, TierOutcome, cutting_order};
 use super::stone::StoneCorner;
 
 /// A tier passes through a point whose distance from it is at most this, in lengths of the largest distance. It is
@@ -14,6 +14,9 @@ const SAME_WAY: f64 = 1e-6;
 
 /// The fewest and the most names of a corner in a meet.
 pub(super) const NAMES: std::ops::RangeInclusive<usize> = 3..=6;
+
+/// The number of times that meets are looked for again after all are followed. Each time, fewer tiers have none.
+const MOST_TIMES: usize = 8;
 
 /// The most lists of names that are tried for one corner.
 const MOST_LISTS: usize = 60;
@@ -41,6 +44,24 @@ impl Tiers {
         let scale = bench.stone().scale();
         while design.drop_a_moving_meet(self, scale) {}
         design
+    }
+
+    /// Follows the meets of the design, and those that its geometry shows, and looks for more in what they make, until there are
+    /// no more: exact points show meets that the rounded numbers of a file hide. Returns the design with all meets, before they
+    /// are followed and after.
+    pub fn with_found_meets_followed(&self) -> (Self, SolvedTiers) {
+        let count = |tiers: &Self| tiers.tiers.iter().filter(|tier| tier.meet.is_some()).count();
+        let mut met = self.with_found_meets();
+        let mut solved = met.solved();
+        for _ in 0..MOST_TIMES {
+            let more = solved.tiers.with_found_meets();
+            if count(&more) == count(&met) {
+                break;
+            }
+            met.tiers.iter_mut().zip(more.tiers).for_each(|(tier, more)| tier.meet = more.meet);
+            solved = met.solved();
+        }
+        (met, solved)
     }
 
     /// Returns the design with the meets that its instructions state, and then those that its geometry shows, for
@@ -106,7 +127,8 @@ impl Bench<'_> {
             && (followed.distance - tier.distance).abs() <= PASSES * self.stone().scale()
     }
 
-    fn found_corner(&self, place: usize, tier: &Tier) -> Option<Meet> {
+    /// Returns a meet at a corner that gives a tier the distance that it has; `None` where there is none.
+    pub fn found_corner(&self, place: usize, tier: &Tier) -> Option<Meet> {
         let corners = self.passed(tier);
         let lists = |count: usize| {
             corners

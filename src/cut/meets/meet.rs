@@ -57,6 +57,15 @@ pub enum MeetPoint {
 }
 
 impl Meet {
+    /// Returns the names of tiers in the meet.
+    pub(in crate::cut) fn names(&self) -> impl Iterator<Item = &String> {
+        let points = match self {
+            Self::Points(points) => points.as_slice(),
+            _ => &[],
+        };
+        points.iter().filter_map(MeetPoint::named).flat_map(|(names, _)| names)
+    }
+
     /// Returns the names of tiers in the meet, so that they can be changed.
     pub(in crate::cut) fn names_mut(&mut self) -> impl Iterator<Item = &mut String> {
         let points = match self {

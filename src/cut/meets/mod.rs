@@ -4,6 +4,8 @@
 //! to the corners that a facet can `reach`. `corners` lists those that a tier of a finished stone can be moved to,
 //! `picked` finds the meet through two or three of them, and `corner_fault` says why there is none.
 //!
+//! `tier_names` gives every tier the name by which meets and lists call it, and `written` reads the program's own words.
+//!
 //! A meet is a point on the stone as it is cut so far (`stone`): a corner where named tiers meet (`names`), a corner of the
 //! girdle, the girdle line, or the point where the axis leaves the stone. Names may be written as cutters write them: P1 is
 //! the pavilion tier 1, G1 a girdle tier, C1 the crown tier 1, and small and capital letters are the same.
@@ -25,7 +27,9 @@ mod stated_tests;
 mod stone;
 #[cfg(test)]
 mod tests;
+mod tier_names;
 mod words;
+mod written;
 
 pub use corner_fault::CornerFault;
 pub use corners::TierCorner;

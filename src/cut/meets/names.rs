@@ -11,27 +11,24 @@ pub(super) struct TierNames {
 
 #[derive(Debug, Clone)]
 struct NamedTier {
-    /// All names of the tier's facets, in lower case; then the name by which the tier is called, where it has no
-    /// name.
+    /// All names of the tier's facets, in lower case.
     names: Vec<String>,
-    /// The tier's own name; empty where it has none.
-    name: String,
-    /// The name by which the tier is called.
+    /// The name by which the tier is called, as [`Tiers::names`] gives it.
     called: String,
     zone: TierZone,
 }
 
 impl TierNames {
     pub fn of(tiers: &Tiers) -> Self {
-        let named = (1..).zip(&tiers.tiers).map(|(number, tier)| {
+        let named = tiers.names().into_iter().zip(&tiers.tiers).map(|(called, tier)| {
             let mut names: Vec<String> = vec![];
             let own = tier.facets.iter().map(|facet| facet.name.as_str()).filter(|name| !name.is_empty());
-            for name in own.map(str::to_lowercase).chain([tier.called(number).to_lowercase()]) {
+            for name in own.map(str::to_lowercase) {
                 if !names.contains(&name) {
                     names.push(name);
                 }
             }
-            NamedTier { names, name: tier.name().to_owned(), called: tier.called(number), zone: tier.zone() }
+            NamedTier { names, called, zone: tier.zone() }
         });
         Self { tiers: named.collect() }
     }
@@ -44,42 +41,61 @@ impl TierNames {
     /// and a crown tier share a name, it means the one on the side of `from`.
     pub fn meant(&self, name: &str, from: usize) -> Vec<usize> {
         let name = name.to_lowercase();
-        let with_name = |name: &str| -> Vec<usize> {
-            let numbered = self.tiers.iter().enumerate();
-            numbered
-                .filter(|(_, tier)| tier.names.iter().any(|own| own == name))
-                .map(|(place, _)| place)
-                .collect()
-        };
-        let exact = with_name(&name);
+        let exact = self.with_name(&name);
         if !exact.is_empty() {
             return self.beside(exact, from);
         }
         if name == ANY_GIRDLE || name == "g" {
             return self.on_side(is_girdle).collect();
         }
-        let Some((letter, rest)) = name.split_at_checked(1) else { return vec![] };
-        let on_side: fn(TierZone) -> bool = match letter {
-            "p" => is_pavilion,
-            "c" => is_crown,
-            "g" => is_girdle,
-            _ => return vec![],
+        let on_side = name.split_at_checked(1).and_then(|(letter, rest)| {
+            let side: fn(TierZone) -> bool = match letter {
+                "p" => is_pavilion,
+                "c" => is_crown,
+                "g" => is_girdle,
+                _ => return None,
+            };
+            Some((side, rest))
+        });
+        let numbered = on_side.and_then(|(side, rest)| self.behind_letter(side, rest));
+        let called = || self.tiers.iter().position(|tier| tier.called.to_lowercase() == name);
+        let nth = || {
+            let (side, rest) = on_side?;
+            let number = rest.parse::<usize>().ok()?.checked_sub(1)?;
+            self.on_side(side).nth(number)
         };
-        let named =
-            with_name(rest).into_iter().filter(|&place| on_side(self.tiers[place].zone)).collect::<Vec<_>>();
-        if !named.is_empty() {
-            return named;
-        }
+        numbered
+            .unwrap_or_else(|| called().or_else(|| self.in_full(&name)).or_else(nth).into_iter().collect())
+    }
+
+    /// Returns the places of the tiers that have this name, in small letters, of their own.
+    fn with_name(&self, name: &str) -> Vec<usize> {
+        let all = self.tiers.iter().enumerate();
+        all.filter(|(_, tier)| tier.names.iter().any(|own| own == name)).map(|(place, _)| place).collect()
+    }
+
+    /// Returns the places of the tiers on a side that a name behind the letter of the side means.
+    fn behind_letter(&self, side: fn(TierZone) -> bool, rest: &str) -> Option<Vec<usize>> {
+        let named: Vec<usize> =
+            self.with_name(rest).into_iter().filter(|&place| side(self.tiers[place].zone)).collect();
         // Girdle tiers without names are often numbered in another order than they are listed.
-        if letter == "g" {
-            let nameless: Vec<usize> =
-                self.on_side(is_girdle).filter(|&place| self.tiers[place].name.is_empty()).collect();
-            if !nameless.is_empty() {
-                return nameless;
+        let is_girdle_number = side(TierZone::Girdle) && rest.parse::<usize>().is_ok();
+        let nameless = || self.on_side(is_girdle).filter(|&place| self.tiers[place].names.is_empty());
+        let found = if named.is_empty() && is_girdle_number { nameless().collect() } else { named };
+        (!found.is_empty()).then_some(found)
+    }
+
+    /// Returns the place of the tier that a zone's whole name means, with the number of the tier in the list (pavilion-2),
+    /// or without one for table and culet. Earlier versions wrote such names into cut files.
+    fn in_full(&self, name: &str) -> Option<usize> {
+        let (zone, place) = match name.split_once('-') {
+            Some((zone, number)) => (zone, number.parse::<usize>().ok()?.checked_sub(1)?),
+            None if name == TierZone::Table.name() || name == TierZone::Culet.name() => {
+                (name, self.tiers.iter().position(|tier| tier.zone.name() == name)?)
             }
-        }
-        let number = rest.parse::<usize>().ok().filter(|&number| number > 0);
-        number.and_then(|number| self.on_side(on_side).nth(number - 1)).into_iter().collect()
+            None => return None,
+        };
+        self.tiers.get(place).filter(|tier| tier.zone.name() == zone).map(|_| place)
     }
 
     /// Returns the name with the letter of the side of the tier at `from` in place of the letter of the other side.
@@ -96,11 +112,13 @@ impl TierNames {
         (!rest.is_empty() && !self.meant(&name, from).is_empty()).then_some(name)
     }
 
-    /// Returns the name that means a tier in a meet of the tier at `from`: the tier's own name, or else the one by
-    /// which it is called.
+    /// Returns the name that means a tier in a meet of the tier at `from`: the name by which it is called, behind the letter of
+    /// its zone where that name alone means a tier on the other side.
     pub fn written(&self, tier: usize, from: usize) -> String {
-        let NamedTier { name, called, .. } = &self.tiers[tier];
-        if !name.is_empty() && self.meant(name, from).contains(&tier) { name.clone() } else { called.clone() }
+        let NamedTier { called, zone, .. } = &self.tiers[tier];
+        let with_letter = format!("{}{called}", zone.letter());
+        let means = |name: &String| self.meant(name, from).contains(&tier);
+        [called, &with_letter].into_iter().find(|name| means(name)).unwrap_or(called).clone()
     }
 
     fn on_side(&self, side: fn(TierZone) -> bool) -> impl Iterator<Item = usize> + '_ {

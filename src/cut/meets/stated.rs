@@ -3,7 +3,6 @@
 use super::super::tiers::{Tier, Tiers};
 use super::found::PASSES;
 use super::meet::{Meet, MeetPoint};
-use super::names::TierNames;
 use super::solve::{AGREE, Bench, SAME_DEPTH, TierOutcome, cutting_order};
 use super::stone::StoneCorner;
 use super::words;
@@ -18,7 +17,8 @@ impl Tiers {
     /// Where words fit several points, the tier's own distance decides. Of several readings, the first that gives
     /// this distance is taken. Where other facets meet at the corner as well, they are added to its names. Of several
     /// corners with the same names, the number of the right one is stored ([`MeetPoint::LaterCorner`]). Where no
-    /// reading comes near the distance, the literal reading stands, unless the words also leave a size to the cutter.
+    /// reading comes near the distance, the literal reading stands, unless the words also leave a size to the cutter. Names
+    /// are written as in their tiers.
     pub fn with_stated_meets(&self) -> Self {
         let readings = words::stated(self);
         let mut design = self.clone();
@@ -37,17 +37,18 @@ impl Tiers {
             }
             bench.cut(place, tier);
         }
+        for (place, tier) in
+            design.tiers.iter_mut().enumerate().filter(|(k, _)| self.tiers[*k].meet.is_none())
+        {
+            tier.meet.iter_mut().for_each(|meet| words::name_as_written(meet, bench.names(), place));
+        }
         design
     }
 
     /// Returns the design with those of the stated meets that agree with its numbers: followed together, they move no
-    /// tier. Names are written as in their tiers. Tiers that have a meet keep it, and all numbers stay.
+    /// tier. Tiers that have a meet keep it, and all numbers stay.
     pub fn with_kept_stated_meets(&self) -> Self {
         let mut design = self.with_stated_meets();
-        let names = TierNames::of(self);
-        for (place, tier) in design.tiers.iter_mut().enumerate() {
-            tier.meet.iter_mut().for_each(|meet| words::name_as_written(meet, &names, place));
-        }
         // Before a tier is cut, nothing shows whether its meet would move it.
         for (tier, own) in design.tiers.iter_mut().zip(&self.tiers).filter(|(tier, _)| !tier.is_cut) {
             tier.meet.clone_from(&own.meet);

@@ -42,9 +42,9 @@ fn bar(end: f64) -> Tiers {
 #[test]
 fn of_corners_with_the_same_names_the_one_beside_the_tier_is_meant() {
     for (teeth, said) in [
-        (18.0, "Meet 1-1-g1"),
-        (12.0, "Meet 1-1-g1 (reached as number 2)"),
-        (6.0, "Meet 1-1-g1 (reached as number 3)"),
+        (18.0, "Meet 1-1-G1"),
+        (12.0, "Meet 1-1-G1 (reached as number 2)"),
+        (6.0, "Meet 1-1-G1 (reached as number 3)"),
     ] {
         let end = (teeth / 96.0 * std::f64::consts::TAU).tan();
         let mut design = bar(end).with_stated_meets();
@@ -57,7 +57,7 @@ fn of_corners_with_the_same_names_the_one_beside_the_tier_is_meant() {
     let far = bar(0.7).with_stated_meets();
     assert_eq!(
         far.tiers[2].meet.as_ref().map(Meet::to_string).as_deref(),
-        Some("Meet 1-1-g1"),
+        Some("Meet 1-1-G1"),
         "the letter stands"
     );
 }
@@ -83,8 +83,8 @@ fn the_reading_that_gives_the_distance_is_taken() {
         design.tiers[place].instructions = text.to_owned();
         design.with_stated_meets().tiers[place].meet.as_ref().map(Meet::to_string)
     };
-    assert_eq!(taken(4, "Meet P1-P1-G1").as_deref(), Some("Meet c1-c1-g1"), "the crown has a tier 1 as well");
-    assert_eq!(taken(2, "Meet 1-1-g1. Form PCP").as_deref(), Some("Meet 1-1-g1"));
+    assert_eq!(taken(4, "Meet P1-P1-G1").as_deref(), Some("Meet c1-c1-G1"), "the crown has a tier 1 as well");
+    assert_eq!(taken(2, "Meet 1-1-g1. Form PCP").as_deref(), Some("Meet 1-1-G1"));
     assert_eq!(taken(2, "Form PCP").as_deref(), Some("New centre point below old"));
     assert_eq!(
         taken(4, "Set size & meet @ 1-2").as_deref(),

@@ -4,10 +4,8 @@
 
 use super::meet::{ANY_GIRDLE, GivenSize, Meet, MeetPoint};
 use super::names::TierNames;
+use super::written::{self, MOST_POINTS};
 use crate::cut::tiers::{TierZone, Tiers};
-
-/// The most points of a meet.
-const MOST_POINTS: usize = 3;
 
 /// Words for the point where the axis leaves the stone.
 const CENTRE: [&str; 9] = [
@@ -103,6 +101,7 @@ pub(super) fn name_as_written(meet: &mut Meet, names: &TierNames, place: usize) 
 /// Reads one instruction. `above` holds the readings of the tier before, which a ditto mark repeats.
 fn readings(text: &str, zone: TierZone, names: &TierNames, from: usize, above: Vec<Meet>) -> Vec<Meet> {
     let text = text.to_lowercase();
+    let literal = written::points(&text, names, from).map(Meet::Points);
     if text.contains(['"', '“', '”']) && !text.contains(|c: char| c.is_alphanumeric() && c != 'g') {
         return above;
     }
@@ -137,7 +136,10 @@ fn readings(text: &str, zone: TierZone, names: &TierNames, from: usize, above: V
         if is_girdle && zone != TierZone::Girdle { GivenSize::GirdleThickness } else { GivenSize::Size }
     });
     let chosen = chosen.or(is_new_centre.then_some(GivenSize::CentrePoint));
-    points.into_iter().map(Meet::Points).chain(chosen.map(Meet::Given)).collect()
+    let read = points.into_iter().map(Meet::Points).chain(chosen.map(Meet::Given));
+    let mut meets: Vec<Meet> = literal.iter().cloned().collect();
+    meets.extend(read.filter(|meet| literal.as_ref() != Some(meet)));
+    meets
 }
 
 /// Returns the meanings of the names of corners other than the literal one: each of several corners alone, or tiers
@@ -193,7 +195,7 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
     let mut pieces = vec![];
     let mut start = None;
     for (at, letter) in text.char_indices().chain([(text.len(), ' ')]) {
-        if letter.is_alphanumeric() || letter == '\'' {
+        if letter.is_alphanumeric() || matches!(letter, '\'' | '_') {
             start.get_or_insert(at);
             continue;
         }
@@ -217,6 +219,43 @@ fn is_name(word: &str) -> bool {
     let digits = word.chars().skip(letters).take_while(char::is_ascii_digit).count();
     let is_whole = letters + digits == word.chars().count();
     is_whole && digits <= 2 && (letters <= 1 || (digits > 0 && letters <= 2))
+}
+
+/// The longest name of a tier that may stand in a list, in letters and digits.
+const LONGEST_NAME: usize = 16;
+
+/// Words that a list of names reads as something else than a name.
+const IN_LISTS: [&str; 20] = [
+    "and",
+    "at",
+    "the",
+    "with",
+    "to",
+    "lower",
+    "upper",
+    "corner",
+    "corners",
+    "point",
+    "points",
+    "girdle",
+    "gjrdle",
+    "pcp",
+    "tcp",
+    "cp",
+    "centerpoint",
+    "center",
+    "centrepoint",
+    "culet",
+];
+
+/// Returns whether a text can be the name of a tier in a list of names joined by dashes: one word, without a meaning of its own
+/// in instructions.
+pub(super) fn is_listable(name: &str) -> bool {
+    let name = name.to_lowercase();
+    let is_word = pieces(&name) == [Piece::Word(&name)] && name.chars().count() <= LONGEST_NAME;
+    let phrases = CENTRE.iter().chain(&TEMPORARY).chain(&GIRDLE_POINT).chain(&CHOSEN).chain(&MADE);
+    let has_meaning = phrases.chain(&["level", "cam"]).any(|words| has_words(&name, words));
+    is_word && !has_meaning && !IN_LISTS.contains(&&*name) && !BEFORE_NAMES.contains(&&*name)
 }
 
 /// Returns the corners whose names an instruction lists, and whether such a list ends at the centre point.
@@ -263,6 +302,14 @@ fn known(word: &str, names: &TierNames, from: usize) -> bool {
     is_name(word) && !names.meant(word, from).is_empty()
 }
 
+/// Returns whether the word at a place is a name that stands beside a dash, though few cutters would use it as one.
+fn is_joined_name(pieces: &[Piece<'_>], at: usize, names: &TierNames, from: usize) -> bool {
+    let is_hyphen = |at: usize| pieces.get(at) == Some(&Piece::Hyphen);
+    let is_joined = is_hyphen(at + 1) || at.checked_sub(1).is_some_and(is_hyphen);
+    is_joined
+        && matches!(pieces[at], Piece::Word(word) if is_listable(word) && !names.meant(word, from).is_empty())
+}
+
 /// Reads lists of names from a place on. Returns the lists, the place after them, and whether they end at the centre
 /// point.
 fn lists_from(
@@ -290,7 +337,9 @@ fn lists_from(
                 ends_at_centre |= !lists[0].is_empty() && pieces[at - 1] != Piece::Comma;
             }
             Piece::Word("girdle" | "gjrdle") => lists[last].push(ANY_GIRDLE.to_owned()),
-            Piece::Word(word) if is_name(word) => lists[last].push(word.to_owned()),
+            Piece::Word(word) if is_name(word) || is_joined_name(pieces, at, names, from) => {
+                lists[last].push(word.to_owned());
+            }
             Piece::Hyphen
             | Piece::Word(
                 "and" | "at" | "the" | "with" | "to" | "lower" | "upper" | "corner" | "corners" | "point"

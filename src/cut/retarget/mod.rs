@@ -30,7 +30,7 @@ const BORNE_OUT: f64 = 1e-4;
 
 /// The note about tiers that were turned about the girdle.
 const TURNED: &str = "every pavilion tier turns by the same angle about the girdle's lower edge; meets of tiers with \
-                      different angles open by a little: see `info --audit`";
+                      different angles open by a little, which an audit of the stone lists";
 
 /// The note about tiers that were turned and whose meets were solved anew.
 const MET_ANEW: &str =
@@ -90,7 +90,7 @@ pub enum RetargetError {
     /// A body that is not convex and between planes, so that no tier has an angle to change.
     #[error(
         "only convex stones between planes have tiers whose angles can follow a material; a heart is a mesh that is not \
-         convex, and a glass shape is curved: change the angles in the cut file, and compare by `measure --material`"
+         convex, and a glass shape is curved: change the angles in the cut file, and compare its measures in both materials"
     )]
     NotConvex,
     /// The planes enclose nothing, the factor is out of range, or a plane would pass the design's origin.

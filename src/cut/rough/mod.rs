@@ -74,8 +74,8 @@ pub enum RoughError {
     },
     /// A thickness of the girdle where the body has no girdle between planes.
     #[error(
-        "the girdle of a stone that is not convex keeps its share of the size; leave out --girdle-mm, or change the girdle in \
-         the cut file"
+        "the girdle of a stone that is not convex keeps its share of the size; give no thickness of the girdle, or change the girdle \
+         in the cut file"
     )]
     GirdleOfMesh,
     /// A body within a smooth surface.
@@ -272,12 +272,12 @@ impl<'a> Shape<'a> {
         let (girdle, across) = match body {
             SolidRef::Convex(stone) => {
                 let outline = Outline::of(stone);
-                let thickness = outline.girdle_top - outline.girdle_bottom;
+                let thickness = outline.girdle_thickness();
                 (Some(ShapeGirdle { stone, thickness }), outline.diameter)
             }
             // The same diameter by which a mesh is scaled: see `MeshShape`.
             SolidRef::Triangles(_) => {
-                let found = Calipers::along_mirror(&corners);
+                let found = Calipers::of_stone(&corners);
                 let least = (high - low).truncate().min_element();
                 (None, found.map_or(least, |found| diameter(&corners, found.middle, found.width)))
             }

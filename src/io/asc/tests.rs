@@ -1,6 +1,8 @@
 use super::*;
 use crate::cut::{Cut, MaterialRef};
 use crate::io::cut_file;
+use crate::io::design_file::EncodedDesign;
+use crate::scene::Specimen;
 use proptest::prelude::*;
 
 #[test]
@@ -129,6 +131,77 @@ fn what_other_programs_write_is_understood() {
     assert_eq!(tiers.footers[1], "33.22º");
     let bytes = write(&Specimen::new(brought.design).unwrap()).bytes;
     assert!(bytes.windows(2).any(|pair| pair == b"2\xba"));
+}
+
+#[test]
+fn letters_in_either_case_and_tokens_without_blanks_are_understood() {
+    for (from, to) in [
+        ("y 4 y", "y4y"),
+        ("y 4 y", "Y 4Y"),
+        ("y 4 y", "y 4, y"),
+        ("g 96 0.0", "G96 0.0"),
+        ("I 1.76", "i1.76"),
+        ("a -45.0 0.9", "A-45.0 0.9"),
+        ("a 35.5", "a35.5°"),
+        ("n C1 96 24", "N C1 96 24"),
+        ("n C1 96 24", "nC1 96 24"),
+        ("0 n T", "0nT"),
+        ("C1 96 24 48 72", "C1 96, 24, 48, 72,"),
+        ("\r\n 48 72 n P1\r\n G to", "\r\n48 72\r\nn P1\r\nG to"),
+        ("G set the", "g set the"),
+    ] {
+        assert!(STONE.contains(from), "{from}");
+        assert_eq!(tiers(&STONE.replace(from, to)), tiers(STONE), "{to:?}");
+    }
+    assert!(!tiers(&STONE.replace("y 4 y", "y4n")).0.mirror);
+    assert!(looks_like(b"A\xa0-45.0 0.9 96 24\r\n"));
+}
+
+#[test]
+fn signs_of_printed_text_and_wide_digits_are_numbers() {
+    for (from, to) in [
+        ("a -45.0", "a −45.0"),
+        ("a -90", "a –90"),
+        ("a -45.0 0.9", "a\u{a0}-45.0\u{202f}0.9"),
+        (" 48 72 n P1", "\u{3000}４８\u{2003}７２ n P1"),
+        ("I 1.76", "I １．７６"),
+    ] {
+        assert!(STONE.contains(from), "{from}");
+        assert_eq!(tiers(&STONE.replace(from, to)), tiers(STONE), "{to:?}");
+    }
+    // The dash of Windows-1252.
+    let dashed: Vec<u8> =
+        STONE.replace("a -45", "a #45").bytes().map(|b| if b == b'#' { 0x96 } else { b }).collect();
+    assert_eq!(read(&dashed, "x.asc").unwrap(), read(STONE.as_bytes(), "x.asc").unwrap());
+}
+
+#[test]
+fn marks_and_sixteen_bits_a_character_are_read_with_their_title() {
+    let text = STONE.replace("A square", "Алмаз");
+    let wide = |order: fn(u16) -> [u8; 2], mark: &str| -> Vec<u8> {
+        mark.chars().chain(text.chars()).flat_map(|c| order(c as u16)).collect()
+    };
+    let mut files = vec![format!("\u{feff}{text}").into_bytes()];
+    for mark in ["\u{feff}", ""] {
+        files.extend([u16::to_le_bytes, u16::to_be_bytes].map(|order| wide(order, mark)));
+    }
+    let plain = read(text.as_bytes(), "x.asc").unwrap();
+    assert_eq!(plain.design.name, "Алмаз");
+    for bytes in files {
+        assert!(looks_like(&bytes));
+        assert_eq!(read(&bytes, "x.asc").unwrap(), plain, "{:?}", &bytes[..4]);
+    }
+}
+
+#[test]
+fn lines_are_written_as_gemcad_ends_them() {
+    let bytes = write(&Specimen::new(read(STONE.as_bytes(), "x.asc").unwrap().design).unwrap()).bytes;
+    let lone = |byte, before: u8| {
+        let pairs = bytes.windows(2).filter(move |pair| pair[1] == byte && pair[0] != before);
+        pairs.count()
+    };
+    assert_eq!(lone(b'\n', b'\r'), 0);
+    assert!(bytes.ends_with(b"\r\n") && bytes.iter().filter(|b| **b == b'\r').count() > 8);
 }
 
 #[test]

@@ -22,7 +22,7 @@ impl Assembly {
         let first = self.places.first().filter(|_| self.scene.metals.is_empty());
         let Some(first) = first.filter(|first| self.places.iter().all(|other| alike([*first, other]))) else {
             return Err(refused(
-                "only stones of one design move, without metal beside them; leave out --moment",
+                "only stones of one design move, without metal beside them, so there is no other moment of it",
             ));
         };
         let (specimen, corners) = (&first.specimen, first.specimen.solid().vertices());

@@ -1,8 +1,9 @@
 //! The stones and the metal of a scene's ring.
 
-use super::{Member, NamedMaterial, diameter_mm, named_material};
+use super::{CutKey, Member, NamedMaterial, diameter_mm, named_material};
 use crate::cut::{MaterialRef, Size};
 use crate::io::Failure;
+use crate::io::mesh_options::MeshPart;
 use crate::io::scene_file::RingEntry;
 use crate::math::{NotConvex, ShadedMesh};
 use crate::scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone, Specimen};
@@ -37,12 +38,12 @@ pub(super) fn cuts(entry: &RingEntry) -> impl Iterator<Item = (&'static str, &st
 pub(super) fn ring<'a>(
     file: &Path,
     entry: &RingEntry,
-    specimens: &'a BTreeMap<String, Arc<Specimen>>,
+    specimens: &'a BTreeMap<CutKey, Arc<Specimen>>,
     (material, size): (Option<&MaterialRef>, Option<Size>),
 ) -> Result<RingParts<'a>, Failure> {
     let refused = |message: String| at_ring(file, entry.line, &message);
     let gem = |cut: &Option<String>, own: &Option<MaterialRef>, size: Option<Size>| {
-        let specimen = cut.as_ref().and_then(|cut| specimens.get(cut));
+        let specimen = cut.as_ref().and_then(|cut| specimens.get(&(cut.clone(), MeshPart::Found)));
         specimen.map(|specimen| Gem::new(specimen, material, own.as_ref(), size)).transpose().map_err(refused)
     };
     let across = Some(Size::Millimetres(entry.ring.small_diameter_mm));

@@ -199,3 +199,27 @@ fn metal_lies_where_it_is_put_beside_stones_or_alone_and_may_cut_into_them() {
     let error = scene("[[stone]]\ncut = \"plate.obj\"").unwrap_err().to_string();
     assert!(error.contains("the surface is open: 3 edges") && error.contains("(4, 0, 0)"), "{error}");
 }
+
+#[test]
+fn a_scene_takes_the_bodies_of_one_mesh_one_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::new();
+    // Two pyramids, one of them twice as high.
+    for (body, height) in [1.0, 2.0].into_iter().enumerate() {
+        let x = 10.0 * body as f64;
+        text += &format!("o pyramid {height}\nv {x} -1 0\nv {} 0 0\nv {x} 1 0\nv {} 0 0\n", x + 1.0, x - 1.0);
+        text += &format!("v {x} 0 {height}\n");
+        for face in ["-2 -3 -4 -5", "-5 -4 -1", "-4 -3 -1", "-3 -2 -1", "-2 -5 -1"] {
+            text += &format!("f {face}\n");
+        }
+    }
+    std::fs::write(folder.path().join("two.obj"), text).unwrap();
+    let stone =
+        |part: &str, x: f64| format!("[[stone]]\ncut = \"two.obj\"\npart = {part}\nat = [{x}, 0, 0]\n");
+    let scene = format!("format = 1\nname = \"x\"\n{}{}", stone("1", 0.0), stone("\"Pyramid 2\"", 20.0));
+    let path = folder.path().join("x.toml");
+    std::fs::write(&path, scene).unwrap();
+    let bodies = load(&path);
+    let [low, high] = [0, 1].map(|k| bodies.scene.instances[k].body.solid().volume());
+    assert!(high > 1.5 * low, "{low} {high}");
+}

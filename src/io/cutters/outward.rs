@@ -18,12 +18,15 @@ const BESIDE_AXIS: f64 = 1e-6;
 /// The plane of a facet and its corners, counter-clockwise seen from outside; no corners where it does not reach the stone.
 pub(in super::super) type FacetOutline = (Plane, Vec<DVec3>);
 
-/// Returns a design as tiers. A design that is not cut by tiers gets the first gear on whose teeth its facets lie, else the
+/// Returns a design as tiers, with names where a meet may name them. A design that is not cut by tiers gets the first gear on whose teeth its facets lie, else the
 /// commonest.
 pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<String>) -> Cow<'a, Tiers> {
     let design = &specimen.design;
     if let Cut::Tiers(tiers) = &design.cut {
-        return Cow::Borrowed(tiers);
+        return match tiers.has_named_meets() {
+            true => Cow::Owned(tiers.with_names_in_meets()),
+            false => Cow::Borrowed(tiers),
+        };
     }
     let brilliant = design.cut.brilliant().is_some();
     if brilliant {
@@ -47,7 +50,7 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
 /// that is not a stone between planes.
 ///
 /// The tiers stand in the order in which cutters work, pavilion, girdle, crown and table, and have cutters' names: P1, G1,
-/// C1, T.
+/// C1, T, and K for the culet.
 pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
     specimen.stone().ok()?;
     let mut tiers = tiers_of(specimen, &mut vec![]).into_owned();
@@ -64,20 +67,8 @@ pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
     for tier in &mut tiers.tiers {
         tier.facets.sort_by(|a, b| tooth(a).total_cmp(&tooth(b)));
     }
-    for place in 0..tiers.tiers.len() {
-        let zone = tiers.tiers[place].zone();
-        let number = 1 + tiers.tiers[..place].iter().filter(|tier| tier.zone() == zone).count();
-        let letter = match zone {
-            TierZone::Pavilion => "P",
-            TierZone::Girdle => "G",
-            TierZone::Crown => "C",
-            TierZone::Table => "T",
-            TierZone::Culet => "CULET",
-        };
-        let is_alone = matches!(zone, TierZone::Table | TierZone::Culet) && number == 1;
-        tiers.tiers[place].rename(&if is_alone { letter.to_owned() } else { format!("{letter}{number}") });
-    }
-    Some(tiers)
+    tiers.tiers.iter_mut().for_each(|tier| tier.rename(""));
+    Some(tiers.with_names())
 }
 
 /// The reason why a body cannot be cut by tiers.

@@ -1,6 +1,7 @@
 //! A design in the form that the readers of all formats return.
 
 use crate::cut::Design;
+use crate::cut::from_mesh::FacetError;
 
 /// A design that was read from a file, with notes and warnings.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,11 +14,19 @@ pub struct ImportedDesign {
     pub warnings: Vec<String>,
     /// For a mesh, true where its shape leaves a doubt which way its table faces; `None` for other designs.
     pub doubt: Option<bool>,
+    /// How messages call the solids of a mesh that has several, in the order of their numbers; empty for any other design.
+    pub parts: Vec<String>,
+    /// True for a mesh whose notes say that other [`MeshOptions`](crate::io::mesh_options::MeshOptions) read it in another
+    /// way.
+    pub has_other_reading: bool,
+    /// The standard errors of the facets of a scan, in the order of the design's facets; empty for other designs.
+    pub errors: Vec<FacetError>,
 }
 
 impl ImportedDesign {
     /// Wraps a design without notes and warnings.
     pub fn of(design: Design) -> Self {
-        Self { design, notes: vec![], warnings: vec![], doubt: None }
+        let (notes, warnings, parts, errors) = (vec![], vec![], vec![], vec![]);
+        Self { design, notes, warnings, doubt: None, parts, has_other_reading: false, errors }
     }
 }

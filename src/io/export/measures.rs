@@ -1,6 +1,6 @@
 //! The measures of a view's light, and their JSON.
 
-use super::event::Reporter;
+use super::event::{Event, Reporter};
 use super::figures::seen_from;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
@@ -75,6 +75,9 @@ pub fn light_measures<'a>(
     }
     renderer.plan(&job).map_err(|why| Failure::Usage(format!("{}: {why}", viewing.file)))?;
     let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?.measures;
+    if let Some(why) = measures.cut_short(MeasureName::all(&settings)) {
+        tell(Event::Warning(&format!("{}: {why}", viewing.file)))?;
+    }
     Ok(MeasureReport { viewing: *viewing, settings, measures, weighted_return: None })
 }
 
@@ -99,13 +102,14 @@ impl MeasureReport<'_> {
         let interval = |of: Interval| json!({ "least": of.least, "most": of.most });
         let measures: Map<String, Value> =
             self.by_name().map(|(name, of)| (name.to_string(), interval(of))).collect();
-        json!({
+        let mut value = json!({
             "file": viewing.file,
             "name": viewing.specimen.design.name,
             "measures": measures,
             "wlr": self.weighted_return,
             "spread_deg": self.measures.spread_deg,
             "unresolved": self.measures.unresolved,
+            "cut_short": self.measures.is_cut_short,
             "material": material.name,
             "index": viewing.medium.index,
             "indices_of_colours": self.settings.indices,
@@ -117,6 +121,10 @@ impl MeasureReport<'_> {
             "rock_deg": self.settings.pattern.and_then(|pattern| pattern.rock_deg),
             "polarised": viewing.polarised,
             "view": seen_from(&viewing.viewpoint),
-        })
+        });
+        if viewing.specimen.body.is_frosted() {
+            value["as_polished"] = json!(true);
+        }
+        value
     }
 }

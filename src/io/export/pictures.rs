@@ -4,7 +4,7 @@ use super::event::{Event, Reporter, WorkShares};
 use super::sheet::{ScopeSheet, SheetFile, UNRESOLVED, how, in_percent, remark};
 use super::viewing::{Viewing, note};
 use super::{Export, OutputFormat, Outputs, write_text};
-use crate::io::{Failure, rasterize, write_exr, write_png};
+use crate::io::{Failure, note_of_letters, rasterize, write_exr, write_png};
 use crate::picture::{
     DiagramStyle, DrawnMarks, Layer, Palette, Picture, Scoped, marked_diagram, profile, vector,
 };
@@ -75,6 +75,9 @@ impl<'a> Pictures<'a> {
         }
         if outputs.wants(OutputFormat::Png) {
             let path = outputs.path("", name, OutputFormat::Png);
+            if let Some(note) = note_of_letters([text.as_str()]) {
+                (self.tell)(Event::Note(&format!("{}: {note}", path.display())))?;
+            }
             let (width, height, pixels) =
                 rasterize(&text, outputs.size).map_err(|e| Failure::Output(e.to_string()))?;
             write_png(&path, (width, height), &self.title(name), |rows| rows.push(&pixels))?;

@@ -4,6 +4,7 @@ use super::read::Reader;
 use crate::cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
 use crate::io::cutters::{self, Gear, TierPiece};
 use crate::io::file_error::Fault;
+use crate::io::numbers::Token;
 use crate::math::Plane;
 use glam::DVec3;
 use roxmltree::Node;
@@ -179,7 +180,7 @@ impl<'d> Reader<'d> {
             "" | "false" | "none" => Some(0.0),
             "true" => Some(USUAL_FROSTING),
             _ => {
-                let number = text.parse().ok().filter(|number| FROSTINGS.contains(number));
+                let number = Token::of(&text).number().filter(|number| FROSTINGS.contains(number));
                 if number.is_none() {
                     self.warn(node, || {
                         format!(
@@ -237,7 +238,7 @@ fn corners<'a>(facet: Node<'a, 'a>) -> impl Iterator<Item = DVec3> + use<'a> {
     let vertices = facet.children().filter(|child| child.has_tag_name("vertex"));
     vertices.filter_map(|vertex| {
         let [x, y, z] = ["x", "y", "z"]
-            .map(|key| vertex.attribute(key)?.trim().parse().ok().filter(|v: &f64| v.is_finite()));
+            .map(|key| Token::of(vertex.attribute(key)?.trim()).number().filter(|v| v.is_finite()));
         Some(DVec3::new(x?, y?, z?))
     })
 }

@@ -1,8 +1,10 @@
 //! Refuses XML that its parser would accept and not finish, before it is parsed, and restores texts as they stand in a file.
 
 use super::MAX_BYTES;
+use crate::io::encoding::{self, Decoded};
 use crate::io::file_error::Fault;
 use crate::io::text::{check_size, line_after};
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 
 /// The most attributes of one element; the XML parser compares each with each.
@@ -11,11 +13,14 @@ const MOST_ATTRIBUTES: usize = 256;
 /// The most declarations of namespaces; the XML parser copies them down the tree.
 const MOST_NAMESPACES: usize = 16;
 
-/// Returns the text of a file of a sane size and structure, UTF-8 or UTF-16 behind its mark, and whether some of its
-/// characters are damaged.
-pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), Fault> {
+/// The bytes at the start of a file in which its encoding is declared.
+const DECLARED_WITHIN: usize = 256;
+
+/// Returns the text of a file of a sane size and structure, in the encoding of its mark or of its declaration, and a warning
+/// where some of its characters are damaged or are not read as declared.
+pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<String>), Fault> {
     check_size(bytes.len(), MAX_BYTES as u64)?;
-    let (text, _, spoilt) = encoding_rs::UTF_8.decode(bytes);
+    let (text, warning) = decoded(bytes);
     if text.matches("xmlns").count() > MOST_NAMESPACES {
         return Err(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared").into());
     }
@@ -29,7 +34,44 @@ pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), Fault> {
         }
         begin += piece.len();
     }
-    Ok((text, spoilt))
+    Ok((text, warning))
+}
+
+fn decoded(bytes: &[u8]) -> (Cow<'_, str>, Option<String>) {
+    let label = declared(bytes);
+    let encoding = label.as_deref().and_then(|label| Encoding::for_label(label.as_bytes()));
+    let Decoded { text, encoding, is_damaged } = encoding::decoded(bytes, Some(encoding.unwrap_or(UTF_8)));
+    let warning = match label {
+        _ if is_damaged && encoding == UTF_8 && !has_letters_beyond_ascii(&text) => {
+            let text = WINDOWS_1252.decode_without_bom_handling(bytes).0;
+            let warning = "characters that are not UTF-8 are read as Windows-1252; save the file as UTF-8";
+            return (text, Some(warning.to_owned()));
+        }
+        _ if is_damaged => {
+            Some(format!("characters that are not {} are read as '\u{fffd}'", encoding.name()))
+        }
+        Some(label) if Encoding::for_label(label.as_bytes()).is_none() => {
+            Some(format!("encoding: '{label:.40}' is not known; the file is read as {}", encoding.name()))
+        }
+        _ => None,
+    };
+    (text, warning)
+}
+
+/// Returns whether some letters beyond ASCII are whole in a text whose damaged bytes stand as U+FFFD, so that it is in the
+/// encoding by which it was decoded.
+fn has_letters_beyond_ascii(text: &str) -> bool {
+    text.chars().any(|c| !c.is_ascii() && c != '\u{fffd}')
+}
+
+/// Returns the encoding that a file declares in its first line.
+fn declared(bytes: &[u8]) -> Option<String> {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(DECLARED_WITHIN)]);
+    let declaration = start.trim_start_matches('\u{feff}').strip_prefix("<?xml")?.split("?>").next()?;
+    let (_, rest) = declaration.split_once("encoding")?;
+    let value = rest.trim_start().strip_prefix('=')?.trim_start();
+    let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+    value[1..].split(quote).next().map(str::to_owned)
 }
 
 fn values(element: &str) -> usize {

@@ -5,6 +5,7 @@ use crate::cut::{MaterialRef, Tiers};
 use crate::io::cutters::{self, Gear, WarningList};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::Fault;
+use crate::io::numbers::{DecimalCommas, Token};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt::Display;
 
@@ -23,7 +24,7 @@ const FOOTERS: [&str; 2] = ["footer1", "footer2"];
 /// # Errors
 /// Fails where the file is no such design; the error has a line where there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
-    let (text, spoilt) = guard::text(bytes)?;
+    let (text, warning) = guard::text(bytes)?;
     if !text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
         let problem = "this is not a Gem Cut Studio file: such a file is XML and begins with `<`; check what the file holds, or \
                        its name's ending";
@@ -32,11 +33,11 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&text, options)
         .map_err(|error| Fault::line(error.pos().row as usize, error))?;
-    let mut reader = Reader { document: &document, warnings: WarningList::default() };
-    if spoilt {
-        reader.warnings.warn(|| "characters that are not UTF-8 are read as '\u{fffd}'".to_owned());
-    }
+    let mut reader =
+        Reader { document: &document, warnings: WarningList::default(), commas: DecimalCommas::default() };
+    warning.into_iter().for_each(|text| reader.warnings.warn(|| text));
     let (tiers, material) = reader.design()?;
+    reader.commas.warn(&mut reader.warnings);
     let name = cutters::title(tiers.headers.first(), label);
     cutters::brought(name, material, tiers, reader.warnings)
 }
@@ -44,6 +45,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
 pub(super) struct Reader<'d> {
     document: &'d Document<'d>,
     pub warnings: WarningList,
+    commas: DecimalCommas,
 }
 
 impl<'d> Reader<'d> {
@@ -67,10 +69,15 @@ impl<'d> Reader<'d> {
         Some(guard::unfolded(raw, attribute.value()))
     }
 
-    /// Returns an attribute as a finite number; `None` where it is missing, and with a warning where it is anything else.
+    /// Returns an attribute as a finite number, also with a decimal comma; `None` where it is missing, and with a warning
+    /// where it is anything else.
     pub fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
         let text = node.attribute(key)?;
-        let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+        let token = Token::of(text.trim());
+        if let Token::WithComma(_) = token {
+            self.commas.count(text, self.line(node));
+        }
+        let number = token.number().filter(|number| number.is_finite());
         if number.is_none() {
             self.warn(node, || format!("{key}: '{text:.40}' is not a finite number; it is not read"));
         }

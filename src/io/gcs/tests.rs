@@ -228,6 +228,53 @@ fn sixteen_bits_a_character_are_read_too() {
 }
 
 #[test]
+fn a_declared_encoding_is_read_and_an_unknown_one_is_named() {
+    let declared = |label: &str| format!("<?xml version=\"1.0\" encoding='{label}'?>");
+    let titled = |head: &str, title: &[u8]| {
+        let (before, after) = PYRAMIDS.split_once("title=\"").unwrap();
+        let after = &after[after.find('"').unwrap()..];
+        [head.as_bytes(), before.as_bytes(), b"title=\"", title, after.as_bytes()].concat()
+    };
+    for (label, title, name) in [
+        ("windows-1252", b"Br\xfccke".as_slice(), "Brücke"),
+        ("ISO-8859-1", b"Br\xfccke".as_slice(), "Brücke"),
+        ("windows-1251", b"\xc0\xeb\xec\xe0\xe7".as_slice(), "Алмаз"),
+        ("Shift_JIS", b"\x95\xf3\x90\xce".as_slice(), "宝石"),
+        ("UTF-16", "Brücke".as_bytes(), "Brücke"),
+    ] {
+        let brought = back(&titled(&declared(label), title));
+        let usual = back(PYRAMIDS.as_bytes()).warnings;
+        assert_eq!((brought.design.name.as_str(), brought.warnings), (name, usual), "{label}");
+    }
+    let odd = |head: &str, title: &[u8]| {
+        let brought = back(&titled(head, title));
+        (brought.design.name, brought.warnings.join("; "))
+    };
+    let bare = odd("", b"Br\xfccke");
+    assert_eq!(bare.0, "Brücke");
+    assert!(bare.1.contains("read as Windows-1252"), "{}", bare.1);
+    let torn = odd(&declared("utf-8"), b"\xc3\xbcber Br\xfccke");
+    assert_eq!(torn.0, "über Br\u{fffd}cke");
+    assert!(torn.1.contains("not UTF-8 are read as '\u{fffd}'"), "{}", torn.1);
+    let unknown = odd(&declared("klingon"), "Brücke".as_bytes());
+    assert_eq!(unknown.0, "Brücke");
+    assert!(unknown.1.contains("encoding: 'klingon' is not known"), "{}", unknown.1);
+}
+
+#[test]
+fn decimal_commas_are_read_with_one_warning_for_all_of_them() {
+    let commas = PYRAMIDS.replace("depth=\"0.7\"", "depth=\"0,7\"").replace("1.5\"", "1,5\"");
+    let (read, plain) = (back(commas.as_bytes()), back(PYRAMIDS.as_bytes()));
+    assert_eq!(read.design, plain.design);
+    let [warnings @ .., last] = &read.warnings[..] else { panic!("a warning is expected") };
+    assert_eq!(warnings, plain.warnings);
+    assert!(last.contains("has a decimal comma and is read as 1.5, and so are "), "{last}");
+    // A comma that may part two numbers is no number.
+    let two = back(PYRAMIDS.replace("1.5\"", "1,5,2\"").as_bytes()).warnings.join("; ");
+    assert!(two.contains("refractive_index: '1,5,2' is not a finite number"), "{two}");
+}
+
+#[test]
 fn no_build_of_xml_takes_long() {
     let begin = std::time::Instant::now();
     let deep = "<a>".repeat(2_000_000);

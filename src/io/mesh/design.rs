@@ -1,15 +1,16 @@
 //! Makes stones from meshes: a convex stone becomes planes, any other triangles.
 
 use super::file::{self, MaterialHint, MeshFile};
+use super::parts::{ChosenPart, left_open};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
-use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, MeshShape, is_printable};
+use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, directions, from_mesh};
+use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
-use crate::math::faceting::{Change, Faceted, SurfaceKind, TooCurved, faceted_hull, facets};
-use crate::math::mending::Mending;
-use crate::math::{Surface, TriangleMesh};
+use crate::math::faceting::{Change, Faceted, NotFaceted, SurfaceKind, faceted_hull, facets, is_noisy};
+use crate::math::mending::{Mended, SurfaceError};
+use crate::math::{Surface, Symmetry, TriangleMesh, signed};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -22,35 +23,57 @@ const USUAL: &str = "diamond";
 /// Fails where the mesh makes no stone; the error has the path and the place.
 pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
-    let MeshFile { format, surface, hint, statement, warnings, name, .. } =
+    let MeshFile { format, surface, hint, statement, mut notes, mut warnings, name, .. } =
         file::parse(bytes, &label, path.parent())?;
-    let mended = surface.mend().map_err(|error| FileError::new(&label, error))?;
+    let (mended, open) =
+        surface.mend_closed().map_err(|error| unmended(&warnings, &error).in_file(&label))?;
+    notes.extend(told_of(&mended));
+    warnings.extend(left_open(&open));
+    let chosen = ChosenPart::of(&mended, options.part, statement.is_some()).map_err(|f| f.in_file(&label))?;
+    notes.extend(chosen.notes);
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
-    let file = File { hint, name, place: MeshPlace::of(format, options.up, statement) };
+    let evening = options.evening;
+    let file = File { hint, name, place: MeshPlace::of(format, options, statement), evening };
     let mut brought = match options.form {
-        MeshForm::Triangles => file.triangles(mended.surface, None),
+        MeshForm::Triangles => file.triangles(chosen.surface, None),
         MeshForm::Faceted => {
-            faceted_hull(mended.surface).map_err(impossible).and_then(|found| file.planes(&found))
+            faceted_hull(chosen.surface).map_err(impossible).and_then(|found| file.planes(&found))
         }
-        MeshForm::Found => match facets(mended.surface) {
+        MeshForm::Found => match facets(chosen.surface) {
             SurfaceKind::Convex(found) => file.planes(&found),
-            SurfaceKind::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
+            SurfaceKind::Concave(surface) => {
+                let why = if is_noisy(&surface) { HIDDEN } else { NOT_CONVEX };
+                file.triangles(surface, Some(why))
+            }
         },
     }
     .map_err(|fault| fault.in_file(&label))?;
-    brought.notes.splice(0..0, told_of(&mended.mending));
+    brought.notes.splice(0..0, notes);
     brought.warnings.splice(0..0, warnings);
-    Ok(brought)
+    Ok(ImportedDesign { parts: chosen.parts, ..brought })
+}
+
+/// Returns the fault of a surface that cannot be mended, behind the warnings about what was left out of it: they may be the
+/// cause.
+fn unmended(warnings: &[String], error: &SurfaceError) -> Fault {
+    Fault::whole(
+        warnings.iter().map(|warning| format!("{warning}; ")).collect::<String>() + &error.to_string(),
+    )
 }
 
 /// The note on a mesh that is traced as triangles without a request for that.
-const NOT_CONVEX: &str = "it is not convex; --as faceted reads the convex stone around it";
+const NOT_CONVEX: &str = "it is not convex; read as a faceted stone it would be the convex stone around it";
+
+/// The note on a scan whose facets are not found.
+const HIDDEN: &str = "its noise hides its facets; a scan with less noise or more corners would show them";
 
 /// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
-fn impossible(error: TooCurved) -> Fault {
-    Fault::whole(format!(
-        "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it with --as triangles"
-    ))
+fn impossible(error: NotFaceted) -> Fault {
+    let instead = match error {
+        NotFaceted::Curved => "save a coarser mesh",
+        NotFaceted::Noisy => "scan it with less noise or more corners",
+    };
+    Fault::whole(format!("it cannot be read as a faceted stone: {error}; {instead}, or read it as triangles"))
 }
 
 /// Returns the note on the changes where a mesh is read as a convex stone. Lengths of the file times `scale` are
@@ -60,11 +83,50 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     let [deepest, tolerance] = [change.deepest, tolerance].map(|length| scale * length);
     format!(
         "the mesh bends inward at {} edges, by up to {sharpest:.1} degrees, and is read as the convex stone that it \
-         stands for: the volume changes by {volume:+.3} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
-         below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; --as \
-         triangles keeps the mesh as it is",
-        change.bent
+         stands for: the volume changes by {} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
+         below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; read as \
+         triangles the mesh would stay as it is",
+        change.bent,
+        signed(volume, 3)
     )
+}
+
+/// Returns the note on how well the facets of a scan are known; `None` for other meshes.
+fn known_to(errors: &[FacetError]) -> Option<String> {
+    let mut slopes: Vec<f64> = errors.iter().map(|error| error.slope_deg).collect();
+    slopes.sort_by(f64::total_cmp);
+    let (least, most) = (slopes.first()?, slopes.last()?);
+    let median = slopes[slopes.len() / 2];
+    Some(format!(
+        "its noise leaves the slopes with standard errors of {least:.1e} to {most:.1e} degrees, in the median {median:.1e}"
+    ))
+}
+
+/// Returns the note on a stone that was given a symmetry; `None` where it was left as found.
+fn evened(symmetry: &Symmetry) -> Option<String> {
+    const FOLDS: [&str; 11] = [
+        "twofold",
+        "threefold",
+        "fourfold",
+        "fivefold",
+        "sixfold",
+        "sevenfold",
+        "eightfold",
+        "ninefold",
+        "tenfold",
+        "elevenfold",
+        "twelvefold",
+    ];
+    let turns = symmetry.turns as usize;
+    let fold =
+        (turns > 1).then(|| FOLDS.get(turns - 2).map_or(format!("{turns}-fold"), |fold| (*fold).to_owned()));
+    let parts: Vec<String> = fold.into_iter().chain(symmetry.mirror.map(|_| "mirror".to_owned())).collect();
+    (!parts.is_empty()).then(|| {
+        format!(
+            "it was evened to {}, which it has except for its noise; --as-found keeps the facets as found",
+            parts.join(", ")
+        )
+    })
 }
 
 /// The statements of a file besides its shape, and the place of its stone.
@@ -72,6 +134,7 @@ struct File {
     hint: Option<MaterialHint>,
     name: String,
     place: MeshPlace,
+    evening: Evening,
 }
 
 impl File {
@@ -79,8 +142,8 @@ impl File {
         let mut remarks = MeshRemarks::default();
         let surface = found.surface.moved(found.centre);
         let up = self.place.up(&surface, || directions(&found.polytope), &mut remarks);
-        let made = from_mesh(found, up).map_err(Fault::whole)?;
-        let FromMesh { mut facets, pose, .. } = made;
+        let made = from_mesh(found, up, self.evening).map_err(Fault::whole)?;
+        let FromMesh { mut facets, pose, errors, .. } = made;
         // A known size goes before the width that was found.
         let scale = self.place.scale.unwrap_or(pose.scale);
         let rescaled = scale / pose.scale;
@@ -89,10 +152,13 @@ impl File {
         remarks.notes.push(format!(
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
+        remarks.notes.extend(known_to(&errors));
+        remarks.notes.extend(evened(&made.evened));
         remarks.is_doubtful = made.doubt.is_some();
+        remarks.has_other_reading = found.change.is_some() || made.doubt.is_some();
         remarks.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         remarks.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
-        let brought = self.brought(Cut::Planes(facets), scale, remarks);
+        let brought = ImportedDesign { errors, ..self.brought(Cut::Planes(facets), scale, remarks)? };
         brought.design.check().map_err(Fault::whole)?;
         Ok(brought)
     }
@@ -116,22 +182,24 @@ impl File {
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;
         }
+        remarks.has_other_reading = why.is_some();
         remarks.notes.extend(why.map(str::to_owned));
         remarks.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
-        Ok(self.brought(Cut::Mesh(shape), scale, remarks))
+        self.brought(Cut::Mesh(shape), scale, remarks)
     }
 
     /// Makes the design of a cut, with `scale` girdle radii per unit of the file.
-    fn brought(self, cut: Cut, scale: f64, remarks: MeshRemarks) -> ImportedDesign {
-        let MeshRemarks { mut notes, mut warnings, is_doubtful } = remarks;
-        let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
+    fn brought(self, cut: Cut, scale: f64, mut remarks: MeshRemarks) -> Result<ImportedDesign, Fault> {
+        let diameter_mm = self.place.diameter_mm(scale, &mut remarks)?;
+        let MeshRemarks { mut notes, mut warnings, is_doubtful, has_other_reading } = remarks;
         let (material, why) = self.material(0.5 * diameter_mm * scale);
         match why {
             Ok(note) => notes.extend(note),
             Err(warning) => warnings.push(warning),
         }
         let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
-        ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) }
+        let doubt = Some(is_doubtful);
+        Ok(ImportedDesign { notes, warnings, doubt, has_other_reading, ..ImportedDesign::of(design) })
     }
 
     /// Returns the material that the file states, with a note where it states none, or a warning where the library
@@ -157,14 +225,17 @@ fn unsaid() -> String {
 }
 
 /// Returns notes on the repairs of a mesh, where they exceed those that any file of triangles needs.
-fn told_of(mending: &Mending) -> Vec<String> {
+fn told_of(mended: &Mended) -> Vec<String> {
+    let mending = &mended.mending;
+    // A solid inside another is turned as well, as if it were a cavity.
+    let turned = if mended.parts.iter().any(|part| part.within.is_some()) { 0 } else { mending.turned };
     let count = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
     let crack = (mending.crack > 0.0)
         .then(|| format!("cracks of up to {:.1e} of its unit were closed", mending.crack));
     [
         count(mending.copies, "copies of triangles are left out"),
         count(mending.degenerate, "triangles without an area are left out"),
-        count(mending.turned, "triangles that faced inward are turned"),
+        count(turned, "triangles that faced inward are turned"),
         count(mending.seams, "pieces were made of triangles whose edges had corners on them"),
         crack,
     ]
@@ -247,7 +318,7 @@ mod tests {
         assert!(matches!(open(ball.clone(), MeshForm::Found).unwrap().design.cut, Cut::Mesh(_)));
         let error = open(ball, MeshForm::Faceted).unwrap_err().to_string();
         assert!(
-            error.contains("cannot be read as a faceted stone") && error.contains("--as triangles"),
+            error.contains("cannot be read as a faceted stone") && error.contains("read it as triangles"),
             "{error}"
         );
     }

@@ -1,4 +1,4 @@
-//! Writes stones as meshes: OBJ and PLY with facets as polygons, STL and binary glTF with triangles.
+//! Writes stones as meshes: OBJ with facets as polygons, STL, PLY and binary glTF with triangles.
 //!
 //! `scale` is in units of the file per girdle radius: for OBJ, PLY and STL the radius in mm, as is usual in the
 //! trade; for glTF the radius in metres, as its standard requires. OBJ keeps 15 digits of the largest coordinate and
@@ -176,7 +176,7 @@ pub fn stated_in_stl(stl: &[u8]) -> Stated {
     Stated { place: stated.is_some(), material: stated.is_some_and(|stated| stated.material.is_some()) }
 }
 
-/// Encodes a solid as binary PLY, z up: each facet is a polygon.
+/// Encodes a solid as binary PLY, z up.
 ///
 /// # Errors
 /// Fails only for lack of memory.

@@ -4,9 +4,9 @@
 //!
 //! 1. `file` finds the format by the content, and reads the triangles, the material and the statement about the
 //!    stone;
-//! 2. the triangles are mended into a closed surface ([`math::mending`](crate::math::mending)), whose facets are found
-//!    ([`math::faceting`](crate::math::faceting));
-//! 3. `place` decides which way is up, and the size of the stone;
+//! 2. the triangles are mended into a closed surface ([`math::mending`](crate::math::mending)); `parts` takes one of the
+//!    solids in it, whose facets are found ([`math::faceting`](crate::math::faceting));
+//! 3. `place` decides which way is up, and `size` the size of the stone;
 //! 4. `design` makes a stone of the facets ([`cut::from_mesh`](crate::cut::from_mesh)), or of the triangles where the solid is
 //!    not convex, and collects notes and warnings.
 //!
@@ -16,7 +16,12 @@ mod design;
 mod export;
 mod file;
 mod metal;
+mod parts;
 mod place;
+mod size;
+#[cfg(test)]
+#[allow(clippy::print_stdout, reason = "a test that is left out says so")]
+mod trials;
 
 pub use design::read;
 pub use export::{FINENESS, Stated, stated_in_stl, write_glb, write_obj, write_ply, write_stl};

@@ -2,8 +2,11 @@
 //! its shape.
 
 use super::file::{MeshFormat, Stands, Statement};
+use super::size::MeshSize;
 use crate::cut::MaterialRef;
 use crate::cut::from_mesh::Up;
+use crate::io::file_error::Fault;
+use crate::io::mesh_options::{MeshOptions, MeshUnit};
 use crate::math::Pose;
 use crate::math::Surface;
 use glam::DVec3;
@@ -21,32 +24,50 @@ pub(super) struct MeshRemarks {
     pub warnings: Vec<String>,
     /// True where the table may face another way than the direction that was taken.
     pub is_doubtful: bool,
+    /// True where notes say how else the mesh may be read.
+    pub has_other_reading: bool,
 }
 
 /// The known direction and size of a stone before its shape is examined.
 #[derive(Debug)]
 pub(super) struct MeshPlace {
     given: Up,
+    format: MeshFormat,
+    unit: MeshUnit,
     statement: Option<Statement>,
     /// Girdle radii per unit of the file; `None` where they are unknown.
     pub scale: Option<f64>,
-    /// The girdle diameter in mm; `None` where it is unknown.
+    /// The girdle diameter in mm; `None` where the file states none, or where its unit is given instead.
     pub diameter_mm: Option<f64>,
     /// The stone's material; `None` where the file names none.
     pub material: Option<MaterialRef>,
 }
 
 impl MeshPlace {
-    /// Starts from a file's format. A direction up that a person gives counts above all else.
-    pub fn of(format: MeshFormat, given: Up, statement: Option<Statement>) -> Self {
-        let given = match given {
+    /// Starts from a file's format. A direction up and a unit that a person gives count above all else.
+    pub fn of(format: MeshFormat, options: MeshOptions, statement: Option<Statement>) -> Self {
+        let given = match options.up {
             // The standard of glTF has y up. The other formats state no direction, and stones are usually modelled
             // with z up.
             Up::Found if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) => Up::FoundBy(DVec3::Y),
             Up::Found => Up::FoundBy(DVec3::Z),
             other => other,
         };
-        Self { given, statement, scale: None, diameter_mm: None, material: None }
+        Self { given, format, unit: options.unit, statement, scale: None, diameter_mm: None, material: None }
+    }
+
+    /// Returns the girdle diameter, mm, of a stone whose girdle has so many radii per unit of the file, with a note where the
+    /// size was assumed.
+    ///
+    /// # Errors
+    /// Fails where the given unit leads to a diameter that no stone may have.
+    pub fn diameter_mm(&self, scale: f64, remarks: &mut MeshRemarks) -> Result<f64, Fault> {
+        if let Some(known) = self.diameter_mm {
+            return Ok(known);
+        }
+        let MeshSize { diameter_mm, note } = MeshSize::of(2.0 / scale, self.unit, self.format)?;
+        remarks.notes.extend(note);
+        Ok(diameter_mm)
     }
 
     /// Returns which way is up in the file's surface: the direction of the file's statement where that fits the
@@ -68,7 +89,8 @@ impl MeshPlace {
             ));
             return self.given;
         }
-        self.diameter_mm = Some(statement.diameter_mm);
+        let is_size_kept = !matches!(self.unit, MeshUnit::Millimetres(_));
+        self.diameter_mm = Some(statement.diameter_mm).filter(|_| is_size_kept);
         self.scale = Some(match stands {
             Stands::Moved { scale, .. } => scale,
             _ => statement.scale(),
@@ -79,11 +101,11 @@ impl MeshPlace {
                 Up::Posed(Pose { scale: statement.scale(), ..Pose::turned(statement.turn()) })
             }
             (Up::FoundBy(_), Stands::Moved { up, scale }) => {
-                remarks.warnings.extend(changes(&statement, up, scale));
+                remarks.warnings.extend(changes(&statement, up, scale, is_size_kept));
                 Up::Known(up)
             }
             (given, Stands::Moved { up, scale }) => {
-                remarks.warnings.extend(changes(&statement, up, scale));
+                remarks.warnings.extend(changes(&statement, up, scale, is_size_kept));
                 given
             }
             (given, _) => given,
@@ -91,11 +113,12 @@ impl MeshPlace {
     }
 }
 
-/// Describes the changes to a stone since its file was written, where they are more than a shift.
-fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
+/// Describes the changes to a stone since its file was written, where they are more than a shift. Where the size is not kept
+/// anyway, a change of the scale is none.
+fn changes(statement: &Statement, up: DVec3, scale: f64, is_size_kept: bool) -> Option<String> {
     let turned = (up - statement.up).length() > ON_AXIS;
     let factor = statement.scale() / scale;
-    let scaled = (factor - 1.0).abs() > SAME_SIZE;
+    let scaled = is_size_kept && (factor - 1.0).abs() > SAME_SIZE;
     let by = format!("its corners have been scaled by {factor:.4} since");
     let to = format!("its corners have been turned since, so that its table faces {}", axis(up));
     let (said, size) = (axis(statement.up), statement.diameter_mm);
@@ -114,15 +137,14 @@ fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
 
 /// Returns the note on a direction that was found, where another is nearly as likely.
 pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
-    let option = axis(other);
     format!(
-        "its shape does not show clearly which way its table faces: {} was chosen, and {option} is nearly as \
-            likely; --up {option} chooses that, as does Table faces in the editor",
-        axis(up)
+        "its shape does not show clearly which way its table faces: {} was chosen, and {} is nearly as likely",
+        axis(up),
+        axis(other)
     )
 }
 
-/// Returns a direction in the form that `--up` takes.
+/// Returns a direction in the form in which it can be given.
 fn axis(direction: DVec3) -> String {
     let named = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
     let is = |(name, axis): &(&str, DVec3)| match () {

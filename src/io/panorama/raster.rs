@@ -1,10 +1,9 @@
-//! Reads Radiance HDR, PNG and JPEG.
+//! Reads PNG and JPEG.
 
 use super::{LARGEST, Raw, check_size, damaged};
 use crate::io::file_error::Fault;
 use crate::optics::linear_from_encoded;
 use crate::scene::Panorama;
-use image::codecs::hdr::HdrDecoder;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use std::fs::File;
 use std::io::BufReader;
@@ -12,21 +11,18 @@ use std::io::BufReader;
 /// The most bytes that a decoder may ask for: the largest picture in its widest form, and as much again to work with.
 const MOST_BYTES: u64 = 32 * (LARGEST.0 as u64) * (LARGEST.1 as u64);
 
-/// Reads a picture from a file of so many bytes; `start` holds the first of them.
-pub(super) fn read(file: BufReader<File>, bytes: u64, start: &[u8]) -> Result<Raw, Fault> {
-    if start.starts_with(b"#?") {
-        // Programs write `#?RADIANCE` or `#?RGBE`; their pixels are the same.
-        return decoded(HdrDecoder::new_nonstrict(file).map_err(damaged)?, bytes);
-    }
+/// Reads a picture from a file of so many bytes.
+pub(super) fn read(file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> {
     let mut reader = ImageReader::new(file).with_guessed_format().map_err(damaged)?;
     if reader.format().is_none() {
         return Err("this is not a picture of a known format; give OpenEXR, Radiance HDR, PNG or JPEG".into());
     }
-    reader.limits(limits());
+    reader.limits(decoder_limits());
     decoded(reader.into_decoder().map_err(damaged)?, bytes)
 }
 
-fn limits() -> Limits {
+/// Returns the memory that a decoder may ask for.
+pub(super) fn decoder_limits() -> Limits {
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);
     limits
@@ -35,17 +31,17 @@ fn limits() -> Limits {
 fn decoded(mut decoder: impl ImageDecoder, bytes: u64) -> Result<Raw, Fault> {
     let (width, height) = decoder.dimensions();
     check_size(u64::from(width), u64::from(height), bytes)?;
-    decoder.set_limits(limits()).map_err(damaged)?;
+    decoder.set_limits(decoder_limits()).map_err(damaged)?;
     // Photographs say which of their sides was the camera's top.
     let orientation = decoder.orientation().map_err(damaged)?;
     let mut image = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     image.apply_orientation(orientation);
     let (width, height) = (image.width(), image.height());
-    Ok((Panorama { width, height, pixels: linear(image) }, vec![]))
+    Ok((Panorama { width, height, pixels: light(image) }, vec![]))
 }
 
 /// Returns the picture's light; floating point is linear already.
-fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
+pub(super) fn light(image: DynamicImage) -> Vec<[f32; 3]> {
     let decode = |code: f32| linear_from_encoded(f64::from(code)) as f32;
     match image {
         DynamicImage::ImageRgb32F(image) => image.pixels().map(|p| p.0).collect(),

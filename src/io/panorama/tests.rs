@@ -104,9 +104,15 @@ fn odd_light_and_odd_shapes_are_told() {
     picture.pixels[1] = [1.0, f32::INFINITY, -1.0, 1.0];
     write_linear_exr(&path, &mut &picture, "").unwrap();
     let reading = read(&path).unwrap();
-    assert_eq!(reading.panorama.pixels[..2], [[0.0, 1.0, 1.0], [1.0, 0.0, 0.0]]);
-    assert_eq!(reading.warnings.len(), 2, "{:?}", reading.warnings);
-    assert!(reading.warnings[0].contains("odd.exr: 2 pixels") && reading.warnings[1].contains("4 by 4"));
+    // A sun that overflowed is bright.
+    assert_eq!(reading.panorama.pixels[..2], [[0.0, 1.0, 1.0], [1.0, LARGEST_HALF, 0.0]]);
+    let [infinite, dark, shape] = &reading.warnings[..] else { panic!("{:?}", reading.warnings) };
+    assert!(infinite.contains("odd.exr: 1 pixels are too bright") && infinite.ends_with("read as 65504"));
+    assert!(dark.contains("odd.exr: 2 pixels") && shape.contains("4 by 4"));
+    // Where the picture holds more than 16 bits can, its brightest light.
+    picture.pixels[2] = [1e6; 4];
+    write_linear_exr(&path, &mut &picture, "").unwrap();
+    assert_eq!(read(&path).unwrap().panorama.pixels[1], [1.0, 1e6, 0.0]);
 }
 
 #[test]
@@ -178,4 +184,196 @@ fn cut_and_spoilt_files_are_errors_or_pictures_but_never_panics() {
             }
         }
     }
+}
+
+mod layers {
+    use super::*;
+    use ::exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
+    use ::exr::math::Vec2;
+    use ::exr::meta::attribute::{IntegerBounds, Text};
+    use ::exr::meta::header::{ImageAttributes, LayerAttributes};
+    use ::exr::prelude::WritableImage;
+    use ::exr::prelude::f16;
+
+    const SIZE: (usize, usize) = (8, 4);
+
+    /// A part of a file: its name, and its channels, each of one value.
+    type Part<'a> = (Option<&'a str>, &'a [(&'a str, f32)]);
+
+    fn layer(part: &Part, at: Vec2<i32>, samples: fn(f32) -> FlatSamples) -> Layer<AnyChannels<FlatSamples>> {
+        let channels = part.1.iter().map(|&(name, value)| AnyChannel::new(name, samples(value)));
+        let attributes = LayerAttributes {
+            layer_name: part.0.map(Text::from),
+            layer_position: at,
+            ..LayerAttributes::default()
+        };
+        Layer::new(SIZE, attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.collect()))
+    }
+
+    /// Writes parts whose data lie in a display window.
+    fn file(
+        folder: &TempDir,
+        parts: &[Part],
+        window: IntegerBounds,
+        samples: fn(f32) -> FlatSamples,
+    ) -> PathBuf {
+        let path = folder.path().join("layers.exr");
+        let layers: Vec<Layer<_>> = parts.iter().map(|part| layer(part, Vec2(0, 0), samples)).collect();
+        let image = Image::from_layers(ImageAttributes::new(window), layers);
+        image.write().to_file(&path).unwrap();
+        path
+    }
+
+    fn floats(value: f32) -> FlatSamples {
+        FlatSamples::F32(vec![value; SIZE.0 * SIZE.1])
+    }
+
+    fn whole() -> IntegerBounds {
+        IntegerBounds { position: Vec2(0, 0), size: Vec2(SIZE.0, SIZE.1) }
+    }
+
+    const RGB: [(&str, f32); 3] = [("R", 1.0), ("G", 2.0), ("B", 3.0)];
+
+    #[test]
+    fn the_picture_is_found_in_layers_of_any_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let other = [("a.R", 9.0), ("a.G", 9.0), ("a.B", 9.0)];
+        let combined =
+            [("View.Combined.R", 1.0), ("View.Combined.G", 2.0), ("View.Combined.B", 3.0), ("View.Z", 5.0)];
+        let both = [&other[..], &combined[..]].concat();
+        let plain_too = [&other[..], &RGB[..], &[("A", 0.5)][..]].concat();
+        let lower = [("r", 1.0), ("g", 2.0), ("b", 3.0)];
+        let words = [("beauty.red", 1.0), ("beauty.green", 2.0), ("beauty.blue", 3.0)];
+        let normal = [("N.X", 1.0), ("N.Y", 2.0), ("N.Z", 3.0)];
+        let cases: [(&[Part], bool); 8] = [
+            (&[(None, &RGB)], false),
+            (&[(None, &combined)], false),
+            (&[(None, &both[..])], true),
+            (&[(None, &plain_too[..])], false),
+            (&[(None, &lower)], false),
+            (&[(None, &words)], false),
+            (&[(Some("depth"), &normal), (Some("picture"), &RGB)], false),
+            (&[(Some("glow"), &[("R", 9.0), ("G", 9.0), ("B", 9.0)]), (Some("Beauty"), &RGB)], true),
+        ];
+        for (number, (parts, is_doubtful)) in cases.into_iter().enumerate() {
+            let reading = read(&file(&folder, parts, whole(), floats)).unwrap();
+            assert_eq!(reading.panorama.pixels, [[1.0, 2.0, 3.0]; 32], "case {number}");
+            let warned = reading.warnings.iter().any(|text| text.contains("of its layers with colours"));
+            assert_eq!(
+                (warned, reading.warnings.len()),
+                (is_doubtful, usize::from(is_doubtful)),
+                "case {number}"
+            );
+        }
+        let error = read(&file(&folder, &[(None, &normal)], whole(), floats)).unwrap_err().to_string();
+        assert!(error.contains("no layer has channels R, G and B, or the luminance Y"), "{error}");
+    }
+
+    #[test]
+    fn luminance_is_grey_and_chroma_gives_it_colour() {
+        let folder = tempfile::tempdir().unwrap();
+        let grey = read(&file(&folder, &[(None, &[("Y", 0.5)])], whole(), floats)).unwrap();
+        assert_eq!((&grey.panorama.pixels[..], grey.warnings.len()), (&[[0.5; 3]; 32][..], 0));
+        let [r, g, b] = [0.25_f32, 0.5, 0.75];
+        let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let chroma = [("Y", y), ("RY", (r - y) / y), ("BY", (b - y) / y)];
+        let read = read(&file(&folder, &[(None, &chroma)], whole(), floats)).unwrap().panorama.pixels;
+        assert!(read[7].iter().zip([r, g, b]).all(|(a, b)| (a - b).abs() < 1e-5), "{:?}", read[7]);
+    }
+
+    #[test]
+    fn numbers_of_every_kind_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let halves = |value| FlatSamples::F16(vec![f16::from_f32(value); 32]);
+        let wholes = |value| FlatSamples::U32(vec![value as u32; 32]);
+        for samples in [halves as fn(f32) -> FlatSamples, wholes] {
+            let read = read(&file(&folder, &[(None, &RGB)], whole(), samples)).unwrap();
+            assert_eq!(read.panorama.pixels, [[1.0, 2.0, 3.0]; 32]);
+        }
+    }
+
+    #[test]
+    fn data_lie_at_their_place_in_the_window_of_the_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let of = |x, y, width, height| {
+            let window = IntegerBounds { position: Vec2(x, y), size: Vec2(width, height) };
+            read(&file(&folder, &[(None, &RGB)], window, floats)).unwrap()
+        };
+        // The data are the right lower quarter of a picture of 16 by 8.
+        let larger = of(-8, -4, 16, 8);
+        assert_eq!((larger.panorama.width, larger.panorama.height), (16, 8));
+        for (k, pixel) in larger.panorama.pixels.iter().enumerate() {
+            let is_held = k % 16 >= 8 && k / 16 >= 4;
+            assert_eq!(*pixel, if is_held { [1.0, 2.0, 3.0] } else { [0.0; 3] }, "{k}");
+        }
+        assert!(
+            larger.warnings[0].contains("cover 25.000 % of the picture of 16 by 8"),
+            "{:?}",
+            larger.warnings
+        );
+        // The data go beyond the picture on all sides.
+        let smaller = of(2, 1, 4, 2);
+        assert_eq!(smaller.panorama.pixels, [[1.0, 2.0, 3.0]; 8]);
+        assert_eq!(smaller.warnings, Vec::<String>::new());
+    }
+}
+
+/// Returns a flat Radiance file with these lines in its header, whose pixels are `rgbe`.
+fn hdr_of(lines: &str, resolution: &str, pixels: &[[u8; 4]]) -> Vec<u8> {
+    let mut file = format!("#?RADIANCE\n{lines}\n{resolution}\n").into_bytes();
+    pixels.iter().for_each(|pixel| file.extend(pixel));
+    file
+}
+
+#[test]
+fn pixels_of_radiance_are_put_upright_from_every_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let (width, height) = (4_usize, 2_usize);
+    // The brightness of a pixel is its number in rows from the top, times a power of 2.
+    let pixel = |x: usize, y: usize| [10 * (1 + y * width + x) as u8, 0, 0, 136];
+    let expected: Vec<[f32; 3]> = (0..8).map(|k| [10.0 * (1 + k) as f32, 0.0, 0.0]).collect();
+    for from_right in [false, true] {
+        for from_bottom in [false, true] {
+            let at_x = |x| if from_right { width - 1 - x } else { x };
+            let at_y = |y| if from_bottom { height - 1 - y } else { y };
+            let signs = [if from_bottom { "+Y" } else { "-Y" }, if from_right { "-X" } else { "+X" }];
+            let rows: Vec<_> = (0..8).map(|k| pixel(at_x(k % width), at_y(k / width))).collect();
+            let columns: Vec<_> = (0..8).map(|k| pixel(at_x(k / height), at_y(k % height))).collect();
+            for (order, pixels) in [
+                (format!("{} 2 {} 4", signs[0], signs[1]), rows),
+                (format!("{} 4 {} 2", signs[1], signs[0]), columns),
+            ] {
+                let path = at(&folder, &hdr_of("FORMAT=32-bit_rle_rgbe\n", &order, &pixels));
+                let reading = read(&path).unwrap();
+                assert_eq!(reading.panorama.pixels, expected, "{order}");
+                assert_eq!((reading.panorama.width, reading.warnings.len()), (4, 0), "{order}");
+            }
+        }
+    }
+}
+
+#[test]
+fn colours_and_factors_of_radiance_are_those_that_its_header_states() {
+    let folder = tempfile::tempdir().unwrap();
+    let grey = [[128, 128, 128, 129]; 2];
+    let first = |lines: &str| {
+        let reading = read(&at(&folder, &hdr_of(lines, "-Y 1 +X 2", &grey))).unwrap();
+        (reading.panorama.pixels[0], reading.warnings.join("; "))
+    };
+    // No line of the header is needed.
+    assert_eq!(first(""), ([1.0; 3], String::new()));
+    assert_eq!(first("EXPOSURE=1\n").1, "");
+    let (light, warning) = first("EXPOSURE=2\nEXPOSURE=2\nCOLORCORR=1 0.5 1\n");
+    assert_eq!(light, [0.25, 0.5, 0.25]);
+    assert!(warning.contains("were multiplied by 4, 2 and 4; this is undone"), "{warning}");
+    // X = Y = Z is a little red beside the white of sRGB, and of luminance Y.
+    let ([r, g, b], warning) = first("FORMAT=32-bit_rle_xyze\n");
+    assert!((0.2126 * r + 0.7152 * g + 0.0722 * b - 1.0).abs() < 1e-4, "{r} {g} {b}");
+    assert!(
+        (r - 1.2048).abs() < 1e-3 && (b - 0.9088).abs() < 1e-3 && warning.is_empty(),
+        "{r} {b} {warning}"
+    );
+    assert!(first("PRIMARIES=0.64 0.33 0.29 0.6 0.15 0.06 0.333 0.333\n").1.is_empty());
+    assert!(first("GAMMA=1\nPRIMARIES=0 0 0 0 0 0 0 0\n").1.is_empty());
+    assert!(first("PRIMARIES=0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329\n").1.contains("primaries"));
 }

@@ -5,7 +5,7 @@ use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
 use resvg::usvg::fontdb::{Database, ID};
 use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, GlyphId, MetadataProvider};
+use skrifa::{FontRef, GlyphId, MetadataProvider, Tag};
 use std::collections::BTreeMap;
 use subsetter::{GlyphRemapper, subset};
 
@@ -19,6 +19,9 @@ pub(super) struct PdfFonts {
     fonts: Vec<PdfFont>,
 }
 
+/// The table of a font with outlines by cubic curves, which PDF holds without the rest of the font (9.9).
+const CFF: Tag = Tag::new(b"CFF ");
+
 /// A font and its used glyphs.
 struct PdfFont {
     /// The font's number in the database of the drawings.
@@ -26,6 +29,8 @@ struct PdfFont {
     /// The bytes of its file, and the font's place in that file.
     data: Vec<u8>,
     index: u32,
+    /// True where the outlines are in the table [`CFF`], false where they are those of TrueType.
+    is_cff: bool,
     glyphs: GlyphRemapper,
     /// The characters that a glyph of the file stands for.
     text: BTreeMap<u16, String>,
@@ -34,14 +39,19 @@ struct PdfFont {
 }
 
 impl PdfFonts {
-    /// Returns the place of a font among those of the file; `None` where the database does not have it. All drawings are
-    /// set from the same list of fonts, so a font has the same number in each.
+    /// Returns the place of a font among those of the file; `None` where the database does not have it, or where the font has
+    /// pictures instead of outlines. Fonts have the same number in all drawings, as those of the system come last.
     pub fn place(&mut self, fonts: &Database, id: ID) -> Option<usize> {
         let known = self.fonts.iter().position(|font| font.id == id);
         known.or_else(|| {
             let (data, index) = fonts.with_face_data(id, |data, index| (data.to_vec(), index))?;
+            let face = FontRef::from_index(&data, index).ok()?;
+            let is_cff = face.table_data(CFF).is_some();
+            if !is_cff && face.table_data(Tag::new(b"glyf")).is_none() {
+                return None;
+            }
             let (glyphs, text, widths) = (GlyphRemapper::new(), BTreeMap::new(), BTreeMap::new());
-            self.fonts.push(PdfFont { id, data, index, glyphs, text, widths });
+            self.fonts.push(PdfFont { id, data, index, is_cff, glyphs, text, widths });
             Some(self.fonts.len() - 1)
         })
     }
@@ -90,8 +100,12 @@ impl PdfFont {
             .descendant_font(descendant)
             .to_unicode(unicode);
         let mut cid = pdf.cid_font(descendant);
-        cid.subtype(CidFontType::Type2).base_font(base).system_info(IDENTITY).font_descriptor(descriptor);
-        cid.default_width(0.0).cid_to_gid_map_predefined(Name(b"Identity"));
+        cid.base_font(base).system_info(IDENTITY).font_descriptor(descriptor).default_width(0.0);
+        if self.is_cff {
+            cid.subtype(CidFontType::Type0);
+        } else {
+            cid.subtype(CidFontType::Type2).cid_to_gid_map_predefined(Name(b"Identity"));
+        }
         let mut widths = cid.widths();
         for (&glyph, &width) in &self.widths {
             widths.consecutive(glyph, [width]);
@@ -104,17 +118,31 @@ impl PdfFont {
         pdf.stream(unicode, &deflated(&characters.finish())).filter(Filter::FlateDecode);
         // The program's own fonts can be subset, as a test shows; for a font that cannot, a viewer uses letters of
         // its own.
-        let part = subset(&self.data, self.index, &self.glyphs).unwrap_or_default();
+        let mut part = subset(&self.data, self.index, &self.glyphs).unwrap_or_default();
+        if self.is_cff {
+            let table =
+                FontRef::new(&part).ok().and_then(|face| Some(face.table_data(CFF)?.as_bytes().to_vec()));
+            part = table.unwrap_or_default();
+        }
         let bytes = deflated(&part);
         let mut stream = pdf.stream(file, &bytes);
         stream.filter(Filter::FlateDecode);
-        stream.pair(Name(b"Length1"), part.len() as i32);
+        if self.is_cff {
+            stream.pair(Name(b"Subtype"), Name(b"CIDFontType0C"));
+        } else {
+            stream.pair(Name(b"Length1"), part.len() as i32);
+        }
         font
     }
 
     fn describe(&self, pdf: &mut Pdf, id: Ref, base: Name, file: Ref) {
         let mut descriptor = pdf.font_descriptor(id);
-        descriptor.name(base).flags(FontFlags::SYMBOLIC).italic_angle(0.0).stem_v(60.0).font_file2(file);
+        descriptor.name(base).flags(FontFlags::SYMBOLIC).italic_angle(0.0).stem_v(60.0);
+        if self.is_cff {
+            descriptor.font_file3(file);
+        } else {
+            descriptor.font_file2(file);
+        }
         let Ok(face) = FontRef::from_index(&self.data, self.index) else { return };
         let metrics = face.metrics(Size::unscaled(), LocationRef::default());
         let scaled = |value: f32| 1000.0 * value / f32::from(metrics.units_per_em);

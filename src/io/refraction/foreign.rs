@@ -144,7 +144,7 @@ fn of_tiles(seen: Seen) -> Result<ForeignPlaces, Fault> {
     }
     if own < STRAIGHT {
         return Err("this is no map in tiles: its places run nowhere straight from tile to tile. Render the tiled template \
-                    unlit, unfiltered and by the view transform Raw, or say --coding gradient if it is that one"
+                    unlit, unfiltered and by the view transform Raw, or name the gradient as its template if it is that one"
             .into());
     }
     let mut codes: Vec<_> = seen.colours.iter().map(|colour| colour.as_ref().map(bytes)).collect();
@@ -181,7 +181,7 @@ fn of_gradient(seen: Seen) -> Result<ForeignPlaces, Fault> {
     if (beyond + dark) as f64 > BEYOND * (shown + dark) as f64 {
         return Err(format!(
             "this is no map of the gradient: red or green is more than blue in {} of {} pixels. Render the gradient \
-             unlit and by the view transform Raw, or say --coding tiled if it is that template",
+             unlit and by the view transform Raw, or name the tiles as its template if it is made of them",
             beyond + dark,
             shown + dark
         )
@@ -192,7 +192,7 @@ fn of_gradient(seen: Seen) -> Result<ForeignPlaces, Fault> {
     let is_flat = all < FEWEST && shown > MANY;
     if is_flat || (all >= FEWEST && (found as f64) < RUNS * all as f64) {
         return Err("this is no map of the gradient: its places run nowhere straight. Render the gradient unlit and by the \
-                    view transform Raw, or say --coding tiled if it is that template"
+                    view transform Raw, or name the tiles as its template if it is made of them"
             .into());
     }
     let mut warnings = vec![];

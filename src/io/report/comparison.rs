@@ -1,10 +1,11 @@
 //! The report that compares several stones, a column each.
 
-use super::figures::{bounded, designed, fixed, is_listed, measured};
+use super::figures::{bounded, designed, is_listed, measured};
 use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, provenance};
 use crate::io::Failure;
+use crate::math::fixed;
 use crate::measure::{Interval, MeasureName, measure_words};
 use crate::picture::{FigureRow, Report, ReportCell, ReportFigure, ReportPart, ReportTable, TextFlow};
 use crate::scene::DomeLight;

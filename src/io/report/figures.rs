@@ -1,8 +1,9 @@
 //! The tables of a report.
 
 use super::stone::{ReportedLight, ReportedStone};
-use crate::cut::{ProportionReport, Spread};
+use crate::cut::{Cut, ProportionReport, Spread};
 use crate::io::export::FigureReport;
+use crate::math::{fixed, signed};
 use crate::measure::{
     EightfoldPattern, FaceUpSize, Interval, MeasureName, OctantUnit, facet_deviations, measure_words,
 };
@@ -10,12 +11,6 @@ use crate::picture::{ReportTable, TextFlow};
 
 /// Deviations and departures below this are printed as 0, and then no facet or octant is named as the worst.
 const NOT_SHOWN: f64 = 5e-4;
-
-/// Formats a number with this many decimal places, without a minus before zero.
-pub(super) fn fixed(value: f64, digits: usize) -> String {
-    let scale = 10_f64.powi(digits as i32);
-    format!("{:.digits$}", (value * scale).round() / scale + 0.0)
-}
 
 /// Formats a part in percent with the greatest error.
 pub(super) fn bounded(found: Interval) -> [String; 2] {
@@ -45,6 +40,11 @@ pub(super) fn measured(stone: &ReportedStone) -> Vec<[String; 2]> {
     let size = FaceUpSize::of(&convex.polytope, specimen.unit_mm(), specimen.carats());
     let percent = |value: f64| format!("{} %", fixed(value, 2));
     let [width, length] = report.table;
+    let along = &report.along_axes;
+    let ratios =
+        [along.pavilion_to_width, along.girdle_to_width, along.crown_to_width, along.height_to_width];
+    let ratios = ratios.map(|ratio| fixed(ratio, 3)).join(", ");
+    let is_by_tiers = matches!(specimen.design.cut, Cut::Tiers(_));
     let pairs = [
         ("Outline, length to width", Some(fixed(report.length_to_width, 4))),
         ("Table, corner to corner", Some(percent(report.table_corners))),
@@ -54,9 +54,10 @@ pub(super) fn measured(stone: &ReportedStone) -> Vec<[String; 2]> {
         ("Girdle thickness", Some(percent(report.girdle_thickness))),
         ("Pavilion depth", Some(percent(report.pavilion_depth))),
         ("Total depth", Some(percent(report.total_depth))),
+        ("P/W, G/W, C/W, H/W", is_by_tiers.then_some(ratios)),
         ("Area from above", Some(format!("{} mm²", fixed(size.face_mm2, 2)))),
         ("Area to weight", size.mm2_per_carat.map(|area| format!("{} mm²/ct", fixed(area, 2)))),
-        ("Spread", Some(format!("{:+.2} %", size.spread_percent + 0.0))),
+        ("Spread", Some(format!("{} %", signed(size.spread_percent, 2)))),
         ("Weight ratio", size.weight_ratio.map(|ratio| fixed(ratio, 3))),
     ];
     pairs.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?])).collect()
@@ -180,7 +181,7 @@ pub(super) fn deviations(stone: &ReportedStone) -> Option<ReportTable> {
     for class in classes {
         let worst = |of: &crate::measure::FacetDeviation, spread: f64| match spread < NOT_SHOWN {
             true => "–".to_owned(),
-            false => format!("{} {:+.3}°", of.facet, of.by_deg),
+            false => format!("{} {}°", of.facet, signed(of.by_deg, 3)),
         };
         let cells = [
             class.class.to_owned(),
@@ -219,7 +220,7 @@ fn add_pattern(table: &mut ReportTable, name: &str, pattern: &EightfoldPattern) 
         let number = |value: Option<f64>| value.map_or("–".to_owned(), |value| fixed(value, 3));
         let worst = figure.worst.filter(|_| figure.spread.is_some_and(|spread| spread >= NOT_SHOWN));
         let worst = worst.map_or("–".to_owned(), |worst| {
-            format!("{} ({}) {:+.3}", worst.octant, pattern.mains[worst.octant - 1], worst.by)
+            format!("{} ({}) {}", worst.octant, pattern.mains[worst.octant - 1], signed(worst.by, 3))
         });
         let label = format!("{name}: {}, {unit}", figure.name);
         table

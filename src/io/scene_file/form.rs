@@ -2,8 +2,9 @@
 
 use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
-use super::super::cut_file::values::{Numbers, TomlTable};
+use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
 use super::super::file_error::Fault;
+use super::super::mesh_options::MeshPart;
 use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
 use super::metal_form::{MetalForm, metals};
@@ -48,6 +49,7 @@ pub(super) struct SceneForm {
 #[serde(deny_unknown_fields)]
 struct StoneForm {
     cut: String,
+    part: Option<PartForm>,
     material: Option<MaterialForm>,
     size: Option<SizeForm>,
     #[serde(default = "one", skip_serializing_if = "is_alone")]
@@ -59,6 +61,35 @@ struct StoneForm {
     #[serde(default)]
     azimuth: f64,
     at: Option<Numbers<3>>,
+}
+
+/// The body of a mesh that a stone is: its number, its name, or `all`.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "OneOf<Pairs>", into = "String")]
+struct PartForm(MeshPart);
+
+impl TryFrom<OneOf<Pairs>> for PartForm {
+    type Error = Fault;
+
+    fn try_from(form: OneOf<Pairs>) -> Result<Self, Fault> {
+        let part = match form {
+            OneOf::Text(text) => MeshPart::from(text.as_str()),
+            OneOf::Number(number) => MeshPart::from(number.to_string().as_str()),
+            OneOf::Rest(_) => MeshPart::Found,
+        };
+        match part {
+            MeshPart::Found | MeshPart::Number(0) => {
+                Err("the number of a body, from 1, its name, or \"all\" is expected".into())
+            }
+            part => Ok(Self(part)),
+        }
+    }
+}
+
+impl From<PartForm> for String {
+    fn from(PartForm(part): PartForm) -> Self {
+        part.to_string()
+    }
 }
 
 fn one() -> i64 {
@@ -227,6 +258,7 @@ impl StoneForm {
     fn of(entry: &Entry, is_placed: bool) -> Self {
         Self {
             cut: entry.cut.clone(),
+            part: Some(entry.part).filter(|part| *part != MeshPart::Found).map(PartForm),
             material: entry.material.as_ref().map(MaterialForm::of),
             size: entry.size.map(SizeForm),
             count: entry.count as i64,
@@ -258,6 +290,7 @@ impl StoneForm {
         let at_mm = place_mm([self.turn, self.tilt, self.azimuth], self.at)?;
         let material = self.material.map(material).transpose()?;
         Ok(Entry {
+            part: self.part.map_or(MeshPart::Found, |PartForm(part)| part),
             cut: self.cut,
             material,
             size: self.size.map(|SizeForm(size)| size),

@@ -30,6 +30,7 @@ fn a_layout_and_places_read_as_written() {
     assert_eq!(scene.light, Some("studio".into()));
     let plain = Entry {
         cut: "tolkowsky".to_owned(),
+        part: crate::io::mesh_options::MeshPart::Found,
         material: None,
         size: None,
         count: 1,
@@ -66,6 +67,29 @@ fn a_layout_and_places_read_as_written() {
     assert_eq!(parse(&world, "x.toml", None).unwrap().light.unwrap(), std::path::Path::new("room"));
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
     assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
+}
+
+#[test]
+fn a_stone_may_be_one_of_several_bodies_of_a_mesh() {
+    for (given, part) in [
+        ("2", MeshPart::Number(2)),
+        ("\"2\"", MeshPart::Number(2)),
+        ("\"left\"", MeshPart::Named("left")),
+        ("\"all\"", MeshPart::All),
+    ] {
+        let text = with(PLACED, "at = [0, 0, 0]", &format!("part = {given}\nat = [0, 0, 0]"));
+        let scene = parse(&text, "x.toml", None).unwrap();
+        assert_eq!((scene.stones[0].part, scene.stones[1].part), (part, MeshPart::Found));
+        let again = parse(&write(&scene), "again.toml", None).unwrap();
+        assert_eq!((again.stones[0].part, again.stones[1].part), (part, MeshPart::Found));
+    }
+    for given in ["0", "\"\"", "[1]"] {
+        let text = with(PLACED, "at = [0, 0, 0]", &format!("part = {given}\nat = [0, 0, 0]"));
+        assert_refused(
+            &text,
+            "x.toml:5: stone.part: the number of a body, from 1, its name, or \"all\" is expected",
+        );
+    }
 }
 
 #[test]

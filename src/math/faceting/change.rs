@@ -39,6 +39,13 @@ impl Change {
     }
 }
 
+impl Change {
+    /// Returns the number of a surface's edges that bend inward.
+    pub(super) fn inward_edges(surface: &Surface) -> usize {
+        bends(surface).len()
+    }
+}
+
 /// Returns the angles of the edges that bend inward, in radians.
 fn bends(surface: &Surface) -> Vec<f64> {
     let normal = |t: usize| surface.area_vector(t).normalize_or_zero();

@@ -2,13 +2,11 @@
 //!
 //! The steps, in their order; each is tried where the steps before it found nothing:
 //!
-//! 1. triangles that share a plane are gathered into regions, whose planes are fitted by least squares (`regions`,
-//!    `fit`); the solid between the planes must reproduce the surface (`search`). This is tried at growing
-//!    tolerances;
-//! 2. planes that cut the hull of the corners are left out, and each triangle is assigned to the facet that it lies
-//!    on (`settle`);
-//! 3. the same is tried at the tolerances of scans, and on a smoothed copy, if the remaining differences are noise
-//!    (`noise`);
+//! 1. triangles that share a plane except for rounding are gathered into regions, whose planes are fitted by least squares
+//!    (`regions`, `fit`); the solid between the planes must reproduce the surface (`search`);
+//! 2. a surface with many corners is taken for a scan: planes are fitted to corners whose noise is estimated first (`scan`);
+//! 3. a model with few corners is searched as in the first step, at growing tolerances. Planes that cut the hull of the
+//!    corners are left out, and each triangle is assigned to the facet that it lies on (`settle`);
 //! 4. the hull itself is taken, if the surface is meant to be its hull (`hull`).
 //!
 //! Where the solid differs from the surface, `change` measures the differences. Lengths are in the surface's unit;
@@ -18,19 +16,21 @@ mod change;
 mod deviation;
 mod fit;
 mod hull;
-mod noise;
+mod plane_error;
 mod regions;
+mod scan;
 mod search;
 mod settle;
 
 #[cfg(test)]
 mod tests;
 
-use super::{Plane, Polytope, Surface};
+use super::{Facet, Plane, Polytope, Surface};
 pub use change::Change;
 pub use deviation::deviation;
 use glam::DVec3;
 use hull::Hull;
+pub use plane_error::PlaneError;
 use regions::{NOWHERE, Regions};
 use search::{MOST_FACETS, MatchingSolid, SolidSearch};
 
@@ -46,6 +46,8 @@ pub struct Face {
     pub area: f64,
     /// The name of the facet in the file, where one of the file's groups is exactly this facet.
     pub name: Option<String>,
+    /// The standard errors of the plane in the same frame, where the surface is a scan, whose noise is known.
+    pub error: Option<PlaneError>,
 }
 
 /// A surface that represents a convex solid between planes. Lengths are in the surface's unit.
@@ -63,8 +65,8 @@ pub struct Faceted {
     pub deviation: f64,
     /// The tolerance at which the facets were found: their corners lie within it of their planes.
     pub tolerance: f64,
-    /// The differences between the solid and a surface that is not convex itself; `None` for a surface that is convex
-    /// up to a thousandth.
+    /// The differences between the solid and a surface that is not convex itself; `None` for a scan, and for a surface
+    /// that is convex up to a thousandth.
     pub change: Option<Change>,
 }
 
@@ -92,21 +94,37 @@ pub fn facets(surface: Surface) -> SurfaceKind {
 /// Its facets are the surface's own facets where the surface is convex, and otherwise those of its hull.
 ///
 /// # Errors
-/// Fails with [`TooCurved`] where the hull is curved and would need too many facets.
-pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
+/// Fails with [`NotFaceted`] where the hull has no flat facets, or those that noise makes.
+pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, NotFaceted> {
     let surface = match facets(surface) {
         SurfaceKind::Convex(found) => return Ok(found),
         SurfaceKind::Concave(surface) => surface,
     };
+    if is_noisy(&surface) {
+        return Err(NotFaceted::Noisy);
+    }
     let (moved, centre) = centred(&surface);
-    let solid = Hull::of(&moved).as_ref().and_then(Hull::solid).ok_or(TooCurved)?;
+    let solid = Hull::of(&moved).as_ref().and_then(Hull::solid).ok_or(NotFaceted::Curved)?;
     Ok(Box::new(faceted(moved, centre, solid, true)))
 }
 
-/// The error where the hull of a surface's corners is curved, or has too many facets.
+/// Returns whether noise bends a surface everywhere, as that of a scan: nearly as often inward as outward.
+pub fn is_noisy(surface: &Surface) -> bool {
+    /// The part of the edges that bend inward.
+    const INWARD: f64 = 0.25;
+    Change::inward_edges(surface) as f64 > INWARD * 1.5 * surface.triangles.len() as f64
+}
+
+/// The error where a surface cannot be read as a stone with flat facets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
-pub struct TooCurved;
+pub enum NotFaceted {
+    /// The hull of the corners is curved, or has too many facets.
+    #[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
+    Curved,
+    /// Noise hides the facets, and those of the hull would be those that noise makes.
+    #[error("its noise hides its facets")]
+    Noisy,
+}
 
 /// Returns a surface with the middle of its box at the origin, and the former place of that middle.
 fn centred(surface: &Surface) -> (Surface, DVec3) {
@@ -118,11 +136,15 @@ fn centred(surface: &Surface) -> (Surface, DVec3) {
 /// Returns the facets of a surface with its centre at the origin. `is_changed` is true where the surface is not
 /// convex but is read as this solid nevertheless.
 fn faceted(surface: Surface, centre: DVec3, solid: MatchingSolid, is_changed: bool) -> Faceted {
-    let MatchingSolid { found, polytope, deviation, tolerance } = solid;
+    let MatchingSolid { found, polytope, deviation, tolerance, errors } = solid;
     let names = names(&surface, &found);
-    let face =
-        |r: usize| Face { plane: found.fits[r].plane, area: found.fits[r].area, name: names[r].clone() };
-    let faces = polytope.facets().iter().map(|f| face(f.source)).collect();
+    let face = |(facet, f): (usize, &Facet)| Face {
+        plane: found.fits[f.source].plane,
+        area: found.fits[f.source].area,
+        name: names[f.source].clone(),
+        error: errors.as_ref().map(|errors| errors[facet]),
+    };
+    let faces = polytope.facets().iter().enumerate().map(face).collect();
     let change = is_changed.then(|| Change::of(&surface, &polytope));
     Faceted { surface, centre, faces, polytope, deviation, tolerance, change }
 }

@@ -1,29 +1,27 @@
 //! Searches for the solid that reproduces a surface, between the planes of regions, at growing tolerances.
 
 use super::deviation::deviation;
+use super::deviation::outermost;
+use super::fit::PlaneFit;
 use super::hull::Hull;
+use super::plane_error::PlaneError;
 use super::regions::{NOWHERE, Regions, is_sliver, regions};
-use super::{noise, settle};
+use super::scan::{ScannedSolid, scanned};
+use super::settle;
 use crate::math::edges::Edges;
 use crate::math::{Facet, Plane, Polytope, Surface};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::cell::OnceCell;
 
 /// The tolerances that are tried one after the other, as parts of the size: from the rounding of f32 to a thousandth,
 /// which is the noise of careless modelling.
 pub(super) const NOISE: [f64; 7] = [1e-6, 1e-5, 4e-5, 1e-4, 2e-4, 4e-4, 1e-3];
 
-/// The tolerances for scans. A solid found with them counts only where noise moves corners off their planes.
-const SCANS: [f64; 5] = [4e-4, 1e-3, 1.5e-3, 2e-3, 4e-3];
-
 /// A solid reproduces a surface if no corner lies farther from the solid's surface than this many tolerances, and its
 /// volume differs by no more than its area times this many tolerances. A corner may be one tolerance off its own
 /// plane and, where regions were joined, three.
 pub(super) const SAME: f64 = 3.0;
-
-/// The greatest distance of a scan's corners from the solid, as a part of the size: noise hides a culet that is
-/// narrower.
-const SAME_SCAN: f64 = 6e-3;
 
 /// A solid at a larger tolerance is better if it has fewer facets, or as many with a smaller deviation, and its
 /// deviation is within this many times that of the first solid found.
@@ -59,6 +57,8 @@ pub(super) struct MatchingSolid {
     pub polytope: Polytope,
     pub deviation: f64,
     pub tolerance: f64,
+    /// The standard errors of the facets' planes, in the order of the facets; `None` where the surface is no scan.
+    pub errors: Option<Vec<PlaneError>>,
 }
 
 /// A surface with its centre at the origin, and the data that the search for its solid needs.
@@ -85,9 +85,14 @@ impl<'a> SolidSearch<'a> {
         let size = self.surface.size();
         let mut limits = NOISE.iter().map(|noise| Limits { tolerance: noise * size, same: SAME });
         let mut failed = vec![];
-        let first = limits
-            .by_ref()
-            .find_map(|limits| self.gathered(limits).map_err(|found| failed.push((limits, found))).ok());
+        let mut tried = |limits| self.gathered(limits).map_err(|found| failed.push((limits, found))).ok();
+        let planar = limits.next().and_then(&mut tried);
+        if planar.is_none() {
+            if let Some(scan) = scanned(self.surface, MOST_FACETS) {
+                return Some(self.of_scan(scan));
+            }
+        }
+        let first = planar.or_else(|| limits.by_ref().find_map(tried));
         let settled = || failed.into_iter().find_map(|(limits, found)| self.put_right(found?, limits));
         let mut best = first.or_else(settled)?;
         // Noise may have divided facets that stay whole at a larger tolerance.
@@ -103,18 +108,35 @@ impl<'a> SolidSearch<'a> {
         Some(best)
     }
 
-    /// Returns the solid that a scan represents, or the hull where the surface is meant to be its hull; `None` where
-    /// there is neither.
+    /// Returns the hull, where the surface is meant to be its hull.
     pub fn meant(&self) -> Option<MatchingSolid> {
-        let (surface, size) = (self.surface, self.surface.size());
-        let smooth = noise::smoothed(surface);
-        let is_noise = |solid: &MatchingSolid| noise::is_noise(surface, &solid.polytope);
-        let of_scan = |noise: &f64| {
-            let limits = Limits { tolerance: noise * size, same: SAME_SCAN / noise };
-            let rough = self.solid(limits).filter(is_noise);
-            rough.or_else(|| self.of_smooth(&smooth, limits).filter(is_noise))
+        self.hull()?.meant(self.surface)
+    }
+
+    /// Returns the solid of a scan with its triangles assigned to the facets that they lie on.
+    fn of_scan(&self, scan: ScannedSolid) -> MatchingSolid {
+        let ScannedSolid { polytope, deviation, noise, errors } = scan;
+        let planes: Vec<Plane> = polytope.planes().collect();
+        let middle = |t: usize| self.surface.corners(t).iter().sum::<DVec3>() / 3.0;
+        let of = (0..self.surface.triangles.len())
+            .into_par_iter()
+            .map(|t| outermost(&planes, middle(t)).0 as u32)
+            .collect();
+        let fit = |f: &Facet| PlaneFit {
+            plane: f.plane,
+            area: polytope.facet_area(f),
+            width: polytope.facet_width(f),
         };
-        SCANS.iter().find_map(of_scan).or_else(|| self.hull()?.meant(surface))
+        let fits = polytope.facets().iter().map(fit).collect();
+        // The facets' sources are the planes of the fits.
+        let polytope = Polytope::from_planes(&planes).unwrap_or(polytope);
+        MatchingSolid {
+            found: Regions { of, fits },
+            polytope,
+            deviation,
+            tolerance: SAME * noise,
+            errors: Some(errors),
+        }
     }
 
     /// Returns the solid between the planes of regions of one tolerance, if it reproduces the surface. Where
@@ -141,15 +163,6 @@ impl<'a> SolidSearch<'a> {
         self.reproduced(found, limits).map_err(Some)
     }
 
-    /// Returns the solid between the planes of regions that are found on a smoothed copy of the surface, if it
-    /// reproduces the surface.
-    ///
-    /// Noise tilts triangles that are small compared with it so much that no region would grow from them on the
-    /// surface itself.
-    fn of_smooth(&self, smooth: &Surface, limits: Limits) -> Option<MatchingSolid> {
-        self.put_right(self.flat_regions(smooth, limits.tolerance)?, limits)
-    }
-
     /// Returns the regions of this surface, or of a copy with other corners; `None` where there are too many or the
     /// surface is round.
     fn flat_regions(&self, surface: &Surface, tolerance: f64) -> Option<Regions> {
@@ -165,7 +178,11 @@ impl<'a> SolidSearch<'a> {
         let deviation = deviation(&polytope, &self.surface.vertices);
         let swelling = (polytope.volume() - self.surface.volume()).abs();
         let is_same = deviation <= same * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
-        if is_same { Ok(MatchingSolid { found, polytope, deviation, tolerance }) } else { Err(found) }
+        if is_same {
+            Ok(MatchingSolid { found, polytope, deviation, tolerance, errors: None })
+        } else {
+            Err(found)
+        }
     }
 }
 

@@ -7,12 +7,17 @@
 //! 3. wider and wider gaps are closed until no edge is open: corners of open edges within the gap become one
 //!    (`weld`), triangles are divided where corners lie on their edges (`seams`), and triangles without area and
 //!    copies are left out;
-//! 4. triangles are turned to agree with their neighbours and with the outside (`orient`).
+//! 4. triangles are turned to agree with their neighbours and with the outside (`orient`);
+//! 5. the solids that the shells bound are told apart (`parts`).
+//!
+//! Of a surface that cannot be closed, [`Surface::mend_closed`] keeps the pieces that can (`pieces`).
 //!
 //! Lengths are in the file's own unit; tolerances are parts of [`Surface::size`].
 
 mod fault;
 mod orient;
+mod parts;
+mod pieces;
 mod seams;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -23,6 +28,8 @@ use super::edges::Edges;
 use fault::MOST_EDGES;
 pub use fault::SurfaceError;
 use glam::DVec3;
+pub use parts::SolidPart;
+pub use pieces::OpenPiece;
 
 /// The widths of gaps that are closed, tried one after the other until no edge is open, as parts of the size. They
 /// range from the rounding of f32 to a fifth of a percent; a wider gap is a hole.
@@ -45,6 +52,8 @@ pub struct Mended {
     pub surface: Surface,
     /// The repairs that were necessary.
     pub mending: Mending,
+    /// The solids in the surface, in the order of their first triangles. A shell that encloses nothing is none.
+    pub parts: Vec<SolidPart>,
 }
 
 /// The repairs that a surface needed.
@@ -81,7 +90,8 @@ impl Surface {
         let size = self.size();
         let exact = weld::exactly(self);
         let (mut surface, edges, mut mending) = close(&exact, size)?;
-        (mending.turned, mending.shells) = orient::outward(&mut surface, &edges)?;
+        let (turned, shells) = orient::outward(&mut surface, &edges)?;
+        (mending.turned, mending.shells) = (turned, shells.len());
         if surface.triangles.len() < self.triangles.len() || mending.crack > 0.0 {
             surface = weld::exactly(&surface);
         }
@@ -89,7 +99,8 @@ impl Surface {
         if surface.volume().abs() <= FLAT * surface.area() * size {
             return Err(SurfaceError::Flat);
         }
-        Ok(Mended { surface, mending })
+        let parts = parts::parts(&surface, &shells);
+        Ok(Mended { surface, mending, parts })
     }
 
     /// Checks the properties that every further step relies on: coordinates, numbering and scale.

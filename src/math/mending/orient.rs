@@ -18,21 +18,40 @@ const ON_WALL: f64 = 0.6;
 /// for a heap of stones.
 const MOST_NESTED: usize = 64;
 
+/// A connected shell of a surface.
+pub(super) struct Shell {
+    /// Its triangles, by their places in the surface.
+    pub triangles: Vec<u32>,
+    /// The innermost shell that it lies within, by its place among the shells.
+    pub within: Option<usize>,
+    /// True where most of its triangles ran clockwise, seen from outside, before they were turned.
+    pub was_inward: bool,
+}
+
 /// Turns triangles that disagree with their neighbours or with the outside. Returns the number of triangles turned and the
-/// number of shells.
-pub(super) fn outward(surface: &mut Surface, edges: &Edges) -> Result<(usize, usize), SurfaceError> {
-    let before = surface.triangles.clone();
+/// shells.
+pub(super) fn outward(surface: &mut Surface, edges: &Edges) -> Result<(usize, Vec<Shell>), SurfaceError> {
+    let before = surface.clone();
     let shells = align(surface, edges)?;
     let (low, high) = surface.bounds();
     let apex = (low + high) / 2.0;
-    for shell in &shells {
-        let volume = surface.volume_of(shell.iter().map(|&t| t as usize), apex);
-        if volume.is_sign_negative() != is_cavity(surface, &shells, shell) {
+    let holders: Vec<Vec<usize>> = (0..shells.len()).map(|own| holders(surface, &shells, own)).collect();
+    let mut found = vec![];
+    for (shell, own) in shells.iter().zip(&holders) {
+        let places = || shell.iter().map(|&t| t as usize);
+        let is_cavity = own.len() % 2 == 1;
+        if surface.volume_of(places(), apex).is_sign_negative() != is_cavity {
             shell.iter().for_each(|&t| surface.triangles[t as usize].swap(1, 2));
         }
+        // The innermost of the shells around it lies in most of them itself. One that lies in as many as it does is the same
+        // shell but for rounding.
+        let around = own.iter().copied().filter(|&other| holders[other].len() < own.len());
+        let within = around.max_by_key(|&other| holders[other].len());
+        let was_inward = before.volume_of(places(), apex).is_sign_negative();
+        found.push(Shell { triangles: shell.clone(), within, was_inward });
     }
-    let turned = surface.triangles.iter().zip(&before).filter(|(now, then)| now != then).count();
-    Ok((turned, shells.len()))
+    let turned = surface.triangles.iter().zip(&before.triangles).filter(|(now, then)| now != then).count();
+    Ok((turned, found))
 }
 
 /// Makes neighbouring triangles run in the same sense. Returns the triangles of each connected shell.
@@ -83,21 +102,22 @@ fn shared_same_way(one: &[u32; 3], other: &[u32; 3]) -> Option<[u32; 2]> {
     run(one).into_iter().find(|edge| run(other).contains(edge))
 }
 
-/// Returns whether a shell lies within an odd number of the others, so that its outside is the inside of the stone.
-fn is_cavity(surface: &Surface, shells: &[Vec<u32>], shell: &[u32]) -> bool {
+/// Returns the shells that a shell lies within. Where there are many shells, none is sought.
+fn holders(surface: &Surface, shells: &[Vec<u32>], own: usize) -> Vec<usize> {
     if shells.len() == 1 || shells.len() > MOST_NESTED {
-        return false;
+        return vec![];
     }
     let bounds = |shell: &[u32]| bounds(shell.iter().flat_map(|&t| surface.corners(t as usize)));
+    let shell = &shells[own];
     let (low, high) = bounds(shell);
     let step = shell.len().div_ceil(SAMPLES);
     let samples: Vec<DVec3> = shell.iter().step_by(step).map(|&t| surface.corners(t as usize)[0]).collect();
-    let holds = |other: &&Vec<u32>| {
-        let (least, most) = bounds(other);
-        let fits = other[0] != shell[0] && least.cmple(low).all() && most.cmpge(high).all();
-        fits && is_within(surface, other, &samples)
+    let holds = |other: &usize| {
+        let (least, most) = bounds(&shells[*other]);
+        let fits = *other != own && least.cmple(low).all() && most.cmpge(high).all();
+        fits && is_within(surface, &shells[*other], &samples)
     };
-    shells.iter().filter(holds).count() % 2 == 1
+    (0..shells.len()).filter(holds).collect()
 }
 
 /// Returns whether a shell contains all these points of another shell, which may touch its wall.

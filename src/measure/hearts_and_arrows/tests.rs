@@ -75,6 +75,16 @@ fn octants_that_are_alike_have_the_same_figures_also_where_regions_are_mirror_im
 }
 
 #[test]
+fn stars_flatter_than_five_degrees_are_no_part_of_the_table() {
+    let flat = RoundBrilliant { table: 72.0, star_length: 35.0, ..TOLKOWSKY };
+    assert!(flat.derived().unwrap().star_angle < 5.0);
+    let stone = Stone::new(&flat.facets().unwrap()).unwrap();
+    assert_eq!(Mains::of(&stone).unwrap().table, [0]);
+    let found = hearts_and_arrows(&stone, DIAMOND, VIEWER_CONES_DEG, &rough(), &unwatched).unwrap();
+    assert!(figure(&found.arrows, "shaft area").median.is_some(), "{:?}", found.arrows);
+}
+
+#[test]
 fn an_ideal_cut_departs_from_eightfold_by_nothing_however_it_is_turned_moved_or_scaled() {
     let whole = measured(UNCHANGED);
     let elsewhere = measured(Change { whole: 17.3, scale: 2.5, moved: DVec2::new(0.4, -0.7), ..UNCHANGED });

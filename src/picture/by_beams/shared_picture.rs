@@ -34,6 +34,10 @@ const MOST_AT_EDGE: f64 = 1e-3;
 /// The greatest weight, times the part of all wavelengths, of light that is looked up together where no lamp is near.
 const MOST_AT_ONCE: f64 = 4e-3;
 
+/// The most by which the area of a beam's outline at one wavelength may count as another multiple of the area that is
+/// painted. Where the painted area is next to nothing, the multiple means nothing.
+const MOST_OF_AREA: f64 = 3.0;
+
 /// The part of all wavelengths for which a shared beam is followed as far as a beam of a single wavelength.
 const USUAL_PART: f64 = 1.0 / 32.0;
 
@@ -84,6 +88,8 @@ struct PaintedPiece<'a> {
     /// The light that is not shown, as energies of one domain of the symmetry, summed over wavelengths.
     lost: Lost,
     seen: Vec<SeenLight>,
+    /// The area of a beam's outline at each of some wavelengths, as a multiple of the area that is painted.
+    sizes: Vec<f64>,
     polygon: Vec<DVec2>,
     /// The ends of beams that are neighbours in the tree; `left` is the energy of all their wavelengths.
     ends: Vec<BeamEnd>,
@@ -103,6 +109,39 @@ struct MeanLight {
 struct SeenLight {
     waves: Range<usize>,
     light: DVec4,
+}
+
+/// How the area of a beam's outline changes with the index.
+///
+/// Several wavelengths are painted as one polygon, whose area is that of none of them. So the light of each counts by its own
+/// area; otherwise outlines that grow toward blue would lose blue light.
+struct MovingSize {
+    /// The area as a polynomial of the change of the slant.
+    areas: [f64; 3],
+    /// The area of the painted polygon.
+    painted: f64,
+}
+
+impl MovingSize {
+    /// Returns the size of a beam that is painted after a change of its slant.
+    fn new(beam: &SharedBeam, change: f64) -> Self {
+        let areas = beam.areas();
+        Self { areas, painted: polynomial(areas, change) }
+    }
+
+    /// Returns the area at an index as a multiple of the painted area.
+    fn at(&self, beam: &SharedBeam, index: f64) -> f64 {
+        if beam.group.len() == 1 {
+            return 1.0;
+        }
+        let area = polynomial(self.areas, beam.entry.slant(index).slant - beam.slant.slant);
+        let part = area / self.painted;
+        if part.is_finite() { part.clamp(-MOST_OF_AREA, MOST_OF_AREA) } else { 1.0 }
+    }
+}
+
+fn polynomial([a, b, c]: [f64; 3], x: f64) -> f64 {
+    a + x * (b + x * c)
 }
 
 impl<'a> SharedPicture<'a> {
@@ -154,6 +193,7 @@ impl<'a> SharedPicture<'a> {
             patches: Patches::default(),
             lost: Lost::default(),
             seen: vec![],
+            sizes: vec![],
             polygon: vec![],
             ends: vec![],
             left: 0.0,
@@ -189,6 +229,11 @@ impl<'a> SharedPicture<'a> {
             left += share;
         }
         (sum, left)
+    }
+
+    /// Returns the refractive index in the middle of some wavelengths.
+    fn middle_index(&self, waves: &Range<usize>) -> f64 {
+        0.5 * (self.media[waves.start].index + self.media[waves.end - 1].index)
     }
 
     /// Returns the response of some wavelengths together.
@@ -410,19 +455,17 @@ impl PaintedPiece<'_> {
         (first, waves): (usize, &Range<usize>),
     ) {
         let picture = self.picture;
-        let (mut whole, mut moment, mut sum) = (DVec3::ZERO, 0.0, 0.0);
-        for seen in self.seen[first..].iter().take_while(|seen| seen.waves.start < waves.end) {
-            let common = seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end);
-            let seen = colour(&picture.response(&common), seen.light);
-            let (from, to) = (picture.media[common.start].index, picture.media[common.end - 1].index);
-            let strength = seen.abs().element_sum();
-            (whole, sum, moment) = (whole + seen, sum + strength, moment + strength * 0.5 * (from + to));
+        let (mut moment, mut sum) = (0.0, 0.0);
+        for (common, seen) in self.common(first, waves) {
+            let strength = colour(&picture.response(&common), seen.light).abs().element_sum();
+            (sum, moment) = (sum + strength, moment + strength * picture.middle_index(&common));
         }
         if sum <= 0.0 {
             return;
         }
         let slant = beam.entry.slant(moment / sum);
         let change = slant.slant - beam.slant.slant;
+        let size = MovingSize::new(beam, change);
         self.polygon.clear();
         self.polygon.extend(beam.outline.iter().map(|corner| corner.after(change)));
         // Where corners have passed one another, the polygon is painted negatively, because other beams are too large
@@ -432,11 +475,28 @@ impl PaintedPiece<'_> {
             self.polygon.reverse();
         }
         if picture.is_clear {
+            let whole: DVec3 = self
+                .common(first, waves)
+                .map(|(common, seen)| {
+                    let size = size.at(beam, picture.middle_index(&common));
+                    colour(&picture.response(&common), seen.light) * size
+                })
+                .sum();
             self.patches.put(&self.polygon, &self.copies[copy].1, (whole * sign).extend(0.0));
             return;
         }
         let path = inside.path(&beam.slant, &slant);
+        self.sizes.clear();
+        self.sizes.extend(waves.clone().map(|k| size.at(beam, picture.media[k].index)));
         self.paint_absorbed(copy, path, sign, (first, waves));
+    }
+
+    /// Returns the parts of some wavelengths whose light was looked up together, with that light. It begins in `seen` at the
+    /// index `first`.
+    fn common(&self, first: usize, waves: &Range<usize>) -> impl Iterator<Item = (Range<usize>, &SeenLight)> {
+        let (start, end) = (waves.start, waves.end);
+        let some = self.seen[first..].iter().take_while(move |seen| seen.waves.start < end);
+        some.map(move |seen| (seen.waves.start.max(start)..seen.waves.end.min(end), seen))
     }
 
     /// Paints the polygon in the colour of light that is absorbed along the paths to its points.
@@ -447,7 +507,7 @@ impl PaintedPiece<'_> {
         sign: f64,
         (first, waves): (usize, &Range<usize>),
     ) {
-        let Self { picture, seen, polygon, patches, copies, .. } = self;
+        let Self { picture, seen, polygon, patches, copies, sizes, .. } = self;
         let media = &picture.media;
         let middle = media[waves.start + waves.len() / 2];
         let is_even = media[waves.clone()].iter().all(|m| m.absorption[0] == m.absorption[1]);
@@ -463,7 +523,8 @@ impl PaintedPiece<'_> {
                     let common = seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end);
                     for (k, medium) in common.clone().zip(&media[common]) {
                         let more = medium.absorption[which] - own.absorption[0];
-                        whole += colour(&picture.response(&(k..k + 1)), seen.light) * (-more * length).exp();
+                        let share = sizes[k - waves.start] * (-more * length).exp();
+                        whole += colour(&picture.response(&(k..k + 1)), seen.light) * share;
                     }
                 }
                 patches.put(part, &copies[copy].1, (whole * left * half).extend(0.0));

@@ -113,7 +113,7 @@ pub fn compare(
     let half = |done: f64| move |part: f64| watch(done + part / 2.0);
     let plane = Backdrop { distance: scene.distance(around.gap), size: scene.size, both_sides: false };
     let strata = |count| Strata::new(count, 1, &Illuminant::D65, true);
-    let survey = Survey { bands: &strata(3), places: 1, shades: &strata(0), passes: 1 };
+    let survey = Survey { bands: &strata(3), places: 1, shades: &strata(0), passes: 1, strength: 1.0 };
     let behind = Mipmap::new(background.clone());
     let (map, carried) = scene.with_lit_scene(&behind, around, |lit_scene| {
         RefractionMap::trace(lit_scene, &plane, &survey, &half(0.0))

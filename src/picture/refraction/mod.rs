@@ -81,6 +81,8 @@ pub struct Survey<'a> {
     pub shades: &'a Strata,
     /// The number of sample passes of the diffuse layer, at least 1; the first goes through the pixels' middles.
     pub passes: u32,
+    /// The part of the turn by refraction that light follows, 0 to 1; 1 is physics.
+    pub strength: f64,
 }
 
 /// The share of the light that a map can show, as means over the pixels that the stones cover.

@@ -57,7 +57,8 @@ impl RefractionMap {
             tracer: SceneTracer::new(lit_scene),
         };
         let passes = |strata, count: u32| -> Vec<(SamplePass, Vec<SceneTracer>)> {
-            let sampling = Sampling { stretches: false, ..Sampling::of(survey.passes) };
+            let strength = survey.strength;
+            let sampling = Sampling { stretches: false, strength, ..Sampling::of(survey.passes) };
             let pass = |number| sampling.pass(lit_scene.scene, strata, number);
             (0..count).map(pass).map(|pass| (pass.clone(), scene.tracer.made_of(&pass))).collect()
         };
@@ -86,7 +87,7 @@ impl RefractionMap {
             }
             let rows: Vec<Row> = (first..height.min(first + PIECE))
                 .into_par_iter()
-                .map(|y| scene.row(y, (&middle[0].1, places), &shades))
+                .map(|y| scene.row(y, (&middle[0], places), &shades))
                 .collect();
             for row in rows {
                 map.bands.iter_mut().zip(row.places).for_each(|(band, places)| band.places.extend(places));
@@ -108,7 +109,7 @@ impl MapScene<'_> {
     fn row(
         &self,
         y: u32,
-        (bands, places): (&[SceneTracer], usize),
+        ((pass, bands), places): (&(SamplePass, Vec<SceneTracer>), usize),
         shades: &[(SamplePass, Vec<SceneTracer>)],
     ) -> Row {
         let width = self.lit_scene.film.size[0];
@@ -124,7 +125,7 @@ impl MapScene<'_> {
             let (start, first) = self.start(corner + 0.5);
             row.hits += u32::from(first.is_some());
             for (tracer, columns) in bands.iter().zip(row.places.chunks_mut(places)) {
-                let (found, own) = self.strongest(tracer, &start, first, places);
+                let (found, own) = self.strongest((tracer, pass), &start, first, places);
                 let all: f64 = found.iter().map(|place| f64::from(place.weight)).sum();
                 let padded = found.into_iter().chain(std::iter::repeat(SourcePlace::default()));
                 columns.iter_mut().zip(padded).for_each(|(column, place)| column.push(place));
@@ -154,14 +155,15 @@ impl MapScene<'_> {
     /// The places together have the weight of all paths.
     fn strongest(
         &self,
-        tracer: &SceneTracer,
+        (tracer, pass): (&SceneTracer, &SamplePass),
         start: &WaitingRay,
         first: Option<First>,
         most: usize,
     ) -> (Vec<SourcePlace>, f64) {
         let mut paths: Vec<(DVec2, f64)> = vec![];
         let mut leave = |ray: &WaitingRay| {
-            let met = self.plane.place(&self.environment.eye, ray.ray.origin, ray.ray.direction);
+            let seen = looked_up(pass, start, ray);
+            let met = self.plane.place(&self.environment.eye, seen.origin, seen.direction);
             paths.extend(met.filter(|_| ray.weight > 0.0).map(|place| (place, ray.weight)));
         };
         match &first {
@@ -204,16 +206,24 @@ impl MapScene<'_> {
         };
         for (tracer, response) in bands.iter().zip(&pass.responses) {
             tracer.follow(&start, &first, |ray| {
-                if self.plane.place(&self.environment.eye, ray.ray.origin, ray.ray.direction).is_some() {
+                let seen = looked_up(pass, &start, ray);
+                if self.plane.place(&self.environment.eye, seen.origin, seen.direction).is_some() {
                     light.behind += response[1..].iter().sum::<DVec3>() * ray.weight;
                 } else {
-                    let arriving = self.environment.radiance_around(&ray.ray, 0.0);
+                    let arriving = self.environment.radiance_around(&seen, 0.0);
                     light.elsewhere += colour(response, arriving * ray.weight);
                 }
             });
         }
         light
     }
+}
+
+/// Returns the ray along which the light of a ray that has left all stones is looked up; `start` is the ray from the eye.
+///
+/// Only refracted light is mixed with the straight ray, as in renders.
+fn looked_up(pass: &SamplePass, start: &WaitingRay, ray: &WaitingRay) -> DispersedRay {
+    if ray.is_reflected() { ray.ray } else { pass.mixed(&start.ray, &ray.ray) }
 }
 
 /// Linear light of a pixel: that of a white background, and that from elsewhere.

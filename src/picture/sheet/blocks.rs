@@ -1,6 +1,6 @@
 //! The blocks of a cutter's sheet: tiers in the order in which they are cut.
 
-use crate::cut::{Tier, TierZone, Tiers, is_printable, with_finish};
+use crate::cut::{Tier, TierZone, Tiers, with_finish};
 use crate::math::Polytope;
 use serde::{Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
@@ -48,8 +48,7 @@ pub struct SheetBlock {
 /// A line of a cutter's sheet: one setting of the machine.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SheetRow {
-    /// The name of the tier and of its facets in the drawings; no two tiers of one sheet without a name of their own share
-    /// it.
+    /// The name of the tier and of its facets in the drawings and in the instructions of other tiers.
     pub name: String,
     /// The angle from the girdle plane, degrees, 0 to 180.
     pub angle_deg: f64,
@@ -104,7 +103,7 @@ pub(super) fn cleaned(text: &str) -> String {
 /// Returns the tiers that are cut, as blocks without those that are empty. `critical_deg` is the critical angle, 0 where
 /// there is none; `solid` is the stone whose planes are the facets of `tiers` in their order.
 pub(super) fn blocks(tiers: &Tiers, solid: &Polytope, critical_deg: f64) -> Vec<SheetBlock> {
-    let (names, left) = (names(tiers), left_on(tiers, solid));
+    let (names, left) = (tiers.names(), left_on(tiers, solid));
     let mut blocks: BTreeMap<BlockKind, Vec<SheetRow>> = BTreeMap::new();
     for (number, tier) in tiers.tiers.iter().enumerate().filter(|(_, tier)| tier.is_cut) {
         let (zone, name) = (tier.zone(), names[number].clone());
@@ -160,30 +159,4 @@ fn left_on(tiers: &Tiers, solid: &Polytope) -> BTreeSet<usize> {
 pub(super) fn tiers_of_planes(tiers: &Tiers) -> Vec<usize> {
     let cut = tiers.tiers.iter().enumerate().filter(|(_, tier)| tier.is_cut);
     cut.flat_map(|(number, tier)| std::iter::repeat_n(number, tier.facets.len())).collect()
-}
-
-/// Returns a name for every tier: its own, or the letter of its zone with a number that no other tier has.
-fn names(tiers: &Tiers) -> Vec<String> {
-    let own = |tier: &Tier| Some(cleaned(&tier.name().replace('_', " "))).filter(|name| is_printable(name));
-    let taken: BTreeSet<String> = tiers.tiers.iter().filter_map(own).collect();
-    let mut counts: BTreeMap<&str, u32> = BTreeMap::new();
-    let mut given = |tier: &Tier| {
-        let letter = match tier.zone() {
-            TierZone::Table => "T",
-            TierZone::Culet => "K",
-            TierZone::Crown => "C",
-            TierZone::Girdle => "G",
-            TierZone::Pavilion => "P",
-        };
-        let count = counts.entry(letter).or_default();
-        loop {
-            *count += 1;
-            let is_flat = matches!(tier.zone(), TierZone::Table | TierZone::Culet);
-            let name = if is_flat && *count == 1 { letter.to_owned() } else { format!("{letter}{count}") };
-            if !taken.contains(&name) {
-                return name;
-            }
-        }
-    };
-    tiers.tiers.iter().map(|tier| own(tier).unwrap_or_else(|| given(tier))).collect()
 }

@@ -17,9 +17,13 @@ use drawing::drawn;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::ControlFlow;
 
 /// The tangent of half the angle across a photograph of span 1: 60 degrees across.
 const HALF_ACROSS: f64 = 0.577_350_269_189_625_8;
+
+/// The rows of a part of a photograph that is taken in parts.
+const PART_ROWS: u32 = 64;
 
 /// A world that the program draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -87,6 +91,33 @@ impl World {
     pub fn picture(self, [width, height]: [u32; 2], span: f64) -> Panorama {
         let size = [width.max(1), height.max(1)];
         self.taken(size, |at| self.seen_at(at, size, span))
+    }
+
+    /// Takes the same photograph as [`picture`](Self::picture), a part after the other. `go_on` is called before each part
+    /// with the share that is done, and stops the work; there is no photograph then.
+    pub fn picture_in_parts(
+        self,
+        [width, height]: [u32; 2],
+        span: f64,
+        mut go_on: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Option<Panorama> {
+        let size = [width.max(1), height.max(1)];
+        let mut pixels = Vec::with_capacity(size[0] as usize * size[1] as usize);
+        for first in (0..size[1]).step_by(PART_ROWS as usize) {
+            if go_on(f64::from(first) / f64::from(size[1])).is_break() {
+                return None;
+            }
+            let end = (first + PART_ROWS).min(size[1]);
+            // Edges are smoothed by the rows beside them.
+            let (above, below) = (u32::from(first > 0), u32::from(end < size[1]));
+            let start = first - above;
+            let part = self.taken([size[0], end + below - start], |at| {
+                self.seen_at(at + DVec2::new(0.0, f64::from(start)), size, span)
+            });
+            let row = size[0] as usize;
+            pixels.extend(&part.pixels[above as usize * row..part.pixels.len() - below as usize * row]);
+        }
+        Some(Panorama { width: size[0], height: size[1], pixels })
     }
 
     /// Returns the unit direction that a place in a photograph shows, in pixels from its upper left corner, and the angle

@@ -127,3 +127,21 @@ fn the_viewer_of_a_light_sees_the_middle_of_the_photograph_behind_the_stones() {
     // Places to the right in the image have azimuths below 0.
     assert_eq!(World::from_light(DVec3::X), -DVec3::Y);
 }
+
+#[test]
+fn a_photograph_taken_in_parts_is_the_one_taken_at_once_and_can_be_stopped() {
+    for (_, world) in World::NAMES {
+        let size = [24, 2 * PART_ROWS + 9];
+        let mut parts = 0;
+        let whole = world.picture_in_parts(size, 2.0, |_| {
+            parts += 1;
+            ControlFlow::Continue(())
+        });
+        assert!(whole == Some(world.picture(size, 2.0)) && parts == 3, "{world:?}");
+        let stopped = world.picture_in_parts(size, 2.0, |done| match done > 0.3 {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
+        assert!(stopped.is_none());
+    }
+}

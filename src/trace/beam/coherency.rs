@@ -43,6 +43,24 @@ impl Coherency {
         [[s.into(), p], [Complex64::ZERO, rest.into()]]
     }
 
+    /// Returns the light at a part of the way from this one to another, 0 to 1, in the same axes.
+    pub fn between(&self, other: &Self, part: f64) -> Self {
+        let mix = |a: f64, b: f64| a + part * (b - a);
+        Self {
+            ss: mix(self.ss, other.ss),
+            pp: mix(self.pp, other.pp),
+            re: mix(self.re, other.re),
+            im: mix(self.im, other.im),
+        }
+    }
+
+    /// Returns light of the same polarisation with another weight.
+    pub fn scaled_to(&self, weight: f64) -> Self {
+        let own = self.weight();
+        let by = if own > 0.0 { weight / own } else { 0.0 };
+        Self { ss: self.ss * by, pp: self.pp * by, re: self.re * by, im: self.im * by }
+    }
+
     /// Returns light of the same weight without polarisation.
     pub fn unpolarised(&self) -> Self {
         let half = self.weight() / 2.0;

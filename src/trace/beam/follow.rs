@@ -11,6 +11,10 @@ use glam::{DVec2, DVec3};
 /// Outlines with less than this share of the silhouette's area come from rounding and are dropped.
 pub(super) const SLIVER: f64 = 1e-15;
 
+/// The number of beams after which a piece of work leaves the rest for the next round. Usual pieces have some hundred; but
+/// light that total reflection keeps inside splits more and more often.
+const MOST_OF_A_PIECE: usize = 4096;
+
 /// The range of corners of an outline that does not exist.
 const NOWHERE: (u32, u32) = (u32::MAX, 0);
 
@@ -38,6 +42,12 @@ pub(in crate::trace) struct Flight {
     pub s: DVec3,
     /// The integral over the outline of the share that absorption has left.
     pub left: f64,
+}
+
+impl Front<Flight> {
+    fn boxed(self) -> Front {
+        Front { node: self.node, bounces: self.bounces, energy: self.energy, flight: Box::new(self.flight) }
+    }
 }
 
 impl Front {
@@ -96,13 +106,17 @@ impl<'a> Follower<'a> {
     }
 
     /// Follows these fronts, and every beam into which they split, while `strong` accepts the energy and the number
-    /// of bounces.
+    /// of bounces. A piece that grows too large leaves the rest among those that were not followed, however strong they
+    /// are.
     pub fn follow(&mut self, before: &Beams, fronts: &[Front], strong: impl Fn(f64, u32) -> bool) {
         self.growth.clear();
         self.outline_at = NOWHERE;
         self.stack.extend(fronts.iter().rev().map(Front::unboxed));
         while let Some(front) = self.stack.pop() {
             self.step(before, &front, &strong);
+            if self.growth.beams.nodes.len() > MOST_OF_A_PIECE {
+                self.growth.left.extend(self.stack.drain(..).map(Front::boxed));
+            }
         }
     }
 

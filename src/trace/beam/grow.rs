@@ -29,15 +29,37 @@ pub struct BeamOptions {
     pub polarised: bool,
     /// The number of beams soon after which tracing stops, even if more light is unresolved than requested.
     pub most_beams: usize,
+    /// The memory, bytes, soon after which tracing stops as well: that of all beams that are kept, of the light that still
+    /// waits to be followed, and of what measures and pictures compute of each beam that is kept. It is counted, not
+    /// measured, so that the result is the same on every machine.
+    #[serde(default = "usual_memory")]
+    pub most_bytes: usize,
     /// True where only one domain of the symmetry that stone, view and light share is traced.
     pub symmetry: bool,
 }
 
 impl Default for BeamOptions {
     fn default() -> Self {
-        Self { unresolved: 1e-3, polarised: true, most_beams: 6_000_000, symmetry: true }
+        let most_bytes = usual_memory();
+        Self { unresolved: 1e-3, polarised: true, most_beams: 6_000_000, most_bytes, symmetry: true }
     }
 }
+
+impl BeamOptions {
+    /// Returns the same options with a part of the memory: one `parts`-th.
+    pub fn with_part_of_memory(self, parts: usize) -> Self {
+        Self { most_bytes: self.most_bytes / parts.max(1), ..self }
+    }
+}
+
+/// Returns the usual limit of the memory of beams, bytes. With it, a program stays below 500 MB.
+fn usual_memory() -> usize {
+    400 << 20
+}
+
+/// The memory that measures and pictures compute of each beam, bytes: the directions of two colours, the strongest exits, and
+/// sums.
+const OF_READERS: usize = 80;
 
 /// The most reflections of a beam, which is given up after them, because total reflection can keep light inside for
 /// ever.
@@ -46,7 +68,7 @@ pub(super) const MOST_BOUNCES: u32 = 1000;
 /// The number of beams in one piece of work. It does not depend on the number of cores, because the result must not.
 const PIECE: usize = 128;
 
-/// The number of pieces between two checks of `watch` and of the number of beams.
+/// The number of pieces between two checks of `watch`, of the number of beams and of their memory.
 const AT_ONCE: usize = 64;
 
 /// The number of pieces per thread that are computed before they are added to the tree. With more, threads wait less
@@ -123,8 +145,9 @@ pub(crate) fn trace_bounces(
 ) -> Beams {
     let facets = Facets::new(polytope);
     let mut tracer = Tracer::new(polytope, &facets, medium, view, options);
-    let fronts = std::mem::take(&mut tracer.fronts);
-    tracer.follow(&fronts, |energy, bounces| energy > 0.0 && bounces < most);
+    let all = BeamOptions { most_beams: usize::MAX, most_bytes: usize::MAX, ..*options };
+    let is_in = |energy: f64, bounces: u32| energy > 0.0 && bounces < most;
+    let _ = tracer.follow_all(is_in, &all, &|| ControlFlow::Continue(()));
     tracer.beams
 }
 
@@ -215,9 +238,10 @@ impl<'a> Tracer<'a> {
             polarised: options.polarised,
             silhouette_area: polytope.silhouette_area(basis.toward),
             dropped: 0.0,
+            is_cut_short: false,
             nodes: Blocks::default(),
             corners: vec![],
-            exits: vec![],
+            exits: Blocks::default(),
             losses: Blocks::default(),
         };
         let mut tracer = Self {
@@ -280,7 +304,7 @@ impl<'a> Tracer<'a> {
         self.beams.nodes.extend(&[node]);
         self.beams.corners.extend_from_slice(outline);
         let reflected = reflect(-view.toward, plane.normal, cos_i);
-        self.beams.exits.push(BeamExit { direction: reflected, weight: glare });
+        self.beams.exits.extend(&[BeamExit { direction: reflected, weight: glare }]);
         if !self.beams.medium.is_clear() {
             self.beams.losses.extend(&[BeamLoss::NONE]);
         }
@@ -311,49 +335,66 @@ impl<'a> Tracer<'a> {
             }
             let movable = self.fronts.iter().any(|f| f.bounces < MOST_BOUNCES && f.energy > 0.0);
             let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.made, left / whole));
-            if left <= goal && is_enough || !movable || self.made > options.most_beams {
+            if left <= goal && is_enough || !movable || self.is_full(options, 0) {
+                self.beams.is_cut_short = left > goal && movable;
                 break;
             }
             level = match left <= goal {
                 true => level * EFFORT_STEP,
                 false => next_level(level, left, &mut before, goal),
             };
-            self.follow_above(level, options.most_beams, &|| watch(done))?;
-            if self.made <= options.most_beams {
+            let strong = |energy: f64, bounces: u32| energy >= level && bounces < MOST_BOUNCES;
+            self.follow_all(strong, options, &|| watch(done))?;
+            if !self.is_full(options, 0) {
                 self.level = level;
             }
         }
         Ok(())
     }
 
-    /// Follows every beam with at least this energy, and all beams into which it splits, until there are too many
-    /// beams.
-    fn follow_above(
-        &mut self,
-        level: f64,
-        most_beams: usize,
-        watch: &impl Fn() -> ControlFlow<()>,
-    ) -> Result<(), Stopped> {
-        let strong = |energy: f64, bounces: u32| energy >= level && bounces < MOST_BOUNCES;
-        let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f.energy, f.bounces)).collect();
-        let mut go = go.into_iter();
-        while !go.as_slice().is_empty() && self.made <= most_beams {
-            if watch().is_break() {
-                return Err(Stopped);
-            }
-            let batch: Vec<Front> = go.by_ref().take(AT_ONCE * PIECE).collect();
-            self.follow(&batch, strong);
-            let waiting = self.fronts.len() + go.len();
-            if self.beams.len() > waiting + waiting / 2 + SPLIT_KEPT {
-                self.drop_split(go.as_mut_slice());
-            }
-        }
-        self.fronts.extend(go);
-        Ok(())
+    /// Returns whether there are too many beams, or they take too much memory. `others` is the number of fronts that wait
+    /// besides those of the tracer.
+    fn is_full(&self, options: &BeamOptions, others: usize) -> bool {
+        let fronts = (self.fronts.len() + others) * (size_of::<Front>() + size_of::<Flight>());
+        let readers = if self.adder.is_some() { 0 } else { self.beams.len() * OF_READERS };
+        self.made > options.most_beams || self.beams.bytes() + fronts + readers > options.most_bytes
     }
 
-    /// Follows these beams, and all beams into which they split, while `strong` accepts the energy and the number of
-    /// bounces.
+    /// Follows every beam that `strong` accepts by its energy and its number of bounces, and all beams into which it
+    /// splits, until there are too many beams.
+    fn follow_all(
+        &mut self,
+        strong: impl Fn(f64, u32) -> bool + Copy + Sync,
+        options: &BeamOptions,
+        watch: &impl Fn() -> ControlFlow<()>,
+    ) -> Result<(), Stopped> {
+        // Pieces that grew too large leave strong fronts behind, which come in the next round.
+        loop {
+            let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f.energy, f.bounces)).collect();
+            let mut go = go.into_iter();
+            if go.as_slice().is_empty() {
+                return Ok(());
+            }
+            while !go.as_slice().is_empty() && !self.is_full(options, go.len()) {
+                if watch().is_break() {
+                    return Err(Stopped);
+                }
+                let batch: Vec<Front> = go.by_ref().take(AT_ONCE * PIECE).collect();
+                self.follow(&batch, strong);
+                let waiting = self.fronts.len() + go.len();
+                if self.beams.len() > waiting + waiting / 2 + SPLIT_KEPT {
+                    self.drop_split(go.as_mut_slice());
+                }
+            }
+            self.fronts.extend(go);
+            if self.is_full(options, 0) {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Follows these beams, and the beams into which they split, while `strong` accepts the energy and the number of
+    /// bounces and no piece of work becomes too large.
     fn follow(&mut self, fronts: &[Front], strong: impl Fn(f64, u32) -> bool + Copy + Sync) {
         for part in fronts.chunks(rayon::current_num_threads() * PIECES_A_THREAD * PIECE) {
             let pieces = part.len().div_ceil(PIECE);

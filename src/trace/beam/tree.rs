@@ -94,9 +94,12 @@ pub struct Beams {
     pub silhouette_area: f64,
     /// The energy of one domain lost in slivers that are too small to follow; it counts as unresolved.
     pub(super) dropped: f64,
+    /// True where the limit of beams or of their memory ended the tracing before as little light was unresolved as
+    /// requested.
+    pub is_cut_short: bool,
     pub(super) nodes: Blocks<BeamNode>,
     pub(super) corners: Vec<DVec2>,
-    pub(super) exits: Vec<BeamExit>,
+    pub(super) exits: Blocks<BeamExit>,
     /// One loss for each node; empty where nothing absorbs.
     pub(super) losses: Blocks<BeamLoss>,
 }
@@ -163,7 +166,7 @@ impl Beams {
         let node = &self.nodes[id];
         let (direction, weight) = match node.exit {
             NO_EXIT => (DVec3::ZERO, 0.0),
-            exit => (self.exits[exit as usize].direction, self.exits[exit as usize].weight),
+            exit => (self.exits[exit].direction, self.exits[exit].weight),
         };
         let BeamLoss { transmittance, absorbed } = self.loss(id);
         Beam {
@@ -204,8 +207,12 @@ impl Beams {
             moved(&mut node.exit, base.exits, old.exits);
         }
         self.nodes.extend(&new.nodes);
+        // The list would double otherwise, and need three times its memory at that moment.
+        if self.corners.capacity() - self.corners.len() < new.corners.len() {
+            self.corners.reserve_exact(new.corners.len() + self.corners.len() / 4);
+        }
         self.corners.extend_from_slice(&new.corners);
-        self.exits.extend_from_slice(&new.exits);
+        self.exits.extend(&new.exits);
         self.losses.extend(&new.losses);
         old.nodes - base.nodes
     }
@@ -217,7 +224,7 @@ impl Beams {
         if !self.losses.is_empty() {
             self.losses.keep(ids);
         }
-        self.exits.clear();
+        self.exits = Blocks::default();
         // Two beams that are not followed never share an outline, so that outlines can move down one after the other.
         let first = |id: u32| self.nodes[id].corners.0;
         let mut by_corners: Vec<(u32, u32)> = (0..ids.len() as u32).map(|id| (first(id), id)).collect();
@@ -231,6 +238,14 @@ impl Beams {
             end += count;
         }
         self.corners.truncate(end as usize);
+    }
+
+    /// Returns the memory of the beams, bytes. Corners count twice, because a list that grows is copied.
+    pub fn bytes(&self) -> usize {
+        self.nodes.len() * size_of::<BeamNode>()
+            + 2 * self.corners.len() * size_of::<DVec2>()
+            + self.exits.len() * size_of::<BeamExit>()
+            + self.losses.len() * size_of::<BeamLoss>()
     }
 
     pub(super) fn size(&self) -> TreeSize {

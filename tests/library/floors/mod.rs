@@ -29,23 +29,34 @@ struct Room {
 }
 
 const ROOMS: [Room; 8] = [
-    Room { folder: "math/mending", door: &["Mended", "Mending", "SurfaceError"] },
+    Room { folder: "math/mending", door: &["Mended", "Mending", "OpenPiece", "SolidPart", "SurfaceError"] },
     Room {
         folder: "math/faceting",
         door: &[
             "Change",
             "Face",
             "Faceted",
+            "NotFaceted",
+            "PlaneError",
             "SurfaceKind",
-            "TooCurved",
             "deviation",
             "faceted_hull",
             "facets",
+            "is_noisy",
         ],
     },
     Room {
         folder: "cut/from_mesh",
-        door: &["Doubt", "FromMesh", "FromMeshError", "Up", "directions", "from_mesh"],
+        door: &[
+            "Doubt",
+            "Evening",
+            "FacetError",
+            "FromMesh",
+            "FromMeshError",
+            "Up",
+            "directions",
+            "from_mesh",
+        ],
     },
     Room {
         folder: "cut/meets",
@@ -399,6 +410,46 @@ fn a_room_that_shows_its_inside_and_a_guest_that_reaches_there_would_be_seen() {
     assert_eq!(taken_from("use crate::io::mesh_options::Up;", "io::mesh"), [""; 0]);
 }
 
+/// Returns the texts of code that name a flag of the command line.
+fn flags(text: &str) -> Vec<String> {
+    let code = untested(text);
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let flag = |line: &str| {
+        let mut pieces = line.split("--").skip(1);
+        pieces.any(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()))
+    };
+    lines.filter(|line| flag(line)).map(|line| line.trim().to_owned()).collect()
+}
+
+#[test]
+fn a_text_that_names_a_flag_would_be_seen() {
+    assert_eq!(
+        flags("let a = \"leave out --moment\";\n// --up\nb - -c;\n"),
+        ["let a = \"leave out --moment\";"]
+    );
+    assert!(flags("a;\n#[cfg(test)]\nmod tests {\n    \"--up\";\n}\n").is_empty());
+}
+
+#[test]
+fn no_text_of_the_library_names_a_flag() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let is_of_program = |path: &Path| {
+        let inside = path.strip_prefix(&src).unwrap();
+        ["cli", "app", "main.rs"].iter().any(|part| inside.starts_with(part))
+            || inside.components().any(|part| part.as_os_str().to_string_lossy().starts_with("tests"))
+    };
+    let files: Vec<PathBuf> = sources(&src).into_iter().filter(|path| !is_of_program(path)).collect();
+    assert!(files.len() > 100);
+    let found: Vec<String> = files
+        .iter()
+        .flat_map(|path| {
+            let named = flags(&std::fs::read_to_string(path).unwrap());
+            named.into_iter().map(move |text| format!("{}: {text}", path.display()))
+        })
+        .collect();
+    assert!(found.is_empty(), "the program adds flags to what the library says: {found:#?}");
+}
+
 #[test]
 fn an_import_that_runs_up_would_be_seen() {
     assert_eq!(imports("use crate::picture::Film; use crate::io; // and crate::cli"), ["picture", "io"]);
@@ -429,4 +480,30 @@ fn the_editors_model_knows_no_window_and_no_thread() {
     }
     assert_eq!(windows("use egui::Ui; struct A(Arc<Mutex<u8>>);"), ["egui", "Arc<Mutex"]);
     assert!(windows("regui(); // as egui does").is_empty());
+}
+
+/// Returns the places in a text where a format writes a number with its sign, without `math::signed`.
+fn signs_of_their_own(text: &str) -> Vec<&str> {
+    let specs =
+        text.match_indices('{').filter_map(|(at, _)| text[at..].split_once('}').map(|(spec, _)| spec));
+    let is_signed = |spec: &&str| {
+        let Some((name, format)) = spec[1..].split_once(':') else { return false };
+        name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '.'))
+            && format.trim_start_matches(['<', '>', '^']).starts_with('+')
+    };
+    specs.filter(is_signed).collect()
+}
+
+#[test]
+fn differences_are_written_by_one_function_that_knows_no_negative_zero() {
+    assert_eq!(
+        signs_of_their_own(r#"format!("{by:+.2} {:>+9.3} {x:.2} {{ a: b }}")"#),
+        ["{by:+.2", "{:>+9.3"]
+    );
+    for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let is_home = path.ends_with("math/decimals.rs");
+        let found = signs_of_their_own(&text);
+        assert!(is_home || found.is_empty(), "{}: {found:?}: use math::signed", path.display());
+    }
 }

@@ -87,7 +87,7 @@ fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused()
         let file = |line| serde_json::from_str::<Value>(line).unwrap()["file"].clone();
         assert_eq!(
             (code, printed.lines().map(file).collect()),
-            (1, vec![json!("tolkowsky"), json!("cube.toml")])
+            (1, vec![json!("tolkowsky"), json!("bad/nan.toml"), json!("cube.toml")])
         );
     }
     std::fs::copy(desk.at("cube.toml"), desk.at("bad/cube.toml")).unwrap();
@@ -97,6 +97,89 @@ fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused()
     std::fs::copy(desk.at("cube.toml"), desk.at("cube-aset.toml")).unwrap();
     let line = "export cube.toml cube-aset.toml --views aset --scope strongest.toml --out twins";
     assert!(desk.refused(line, 2).contains("'cube-aset-strongest'") && !desk.at("twins").exists());
+}
+
+#[test]
+fn every_command_of_several_files_goes_on_after_one_that_fails_and_counts_it() {
+    let desk = Desk::new();
+    let files = "tolkowsky heart cube.toml";
+    for (line, made, code) in [
+        // A heart is not convex.
+        (format!("measure --measures --unresolved 0.2 --json {files}"), vec![], 1),
+        (format!("measure --tracer beam --unresolved 0.2 --json {files}"), vec![], 2),
+        (format!("sheet {files} --json"), vec![], 1),
+        (
+            format!("sheet {files} --format svg --out sheets"),
+            vec!["cube-sheet.svg", "tolkowsky-sheet.svg"],
+            1,
+        ),
+        (
+            "render tolkowsky none.toml cube.toml --size 16 --samples 1 --out renders".into(),
+            vec!["cube-render.png", "tolkowsky-render.png"],
+            1,
+        ),
+    ] {
+        let (ended, printed, stderr) = desk.run(&line);
+        let failed = if line.contains("none") { "none.toml" } else { "heart" };
+        assert_eq!(ended, code, "{line}: {stderr}");
+        assert!(stderr.ends_with(&format!("1 of 3 files failed: {failed}\n")), "{line}: {stderr}");
+        assert!(stderr.contains(&format!("error: {failed}:")), "{line}: {stderr}");
+        if line.contains("--json") {
+            let lines: Vec<Value> = printed.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+            let named: Vec<&str> = lines.iter().map(|line| line["file"].as_str().unwrap()).collect();
+            assert_eq!(named, ["tolkowsky", "heart", "cube.toml"], "{line}");
+            let errors: Vec<bool> = lines.iter().map(|line| line["error"].is_string()).collect();
+            assert_eq!(errors, [false, true, false], "{line}");
+        } else {
+            let folder = if line.contains("sheets") { "sheets" } else { "renders" };
+            let mut found: Vec<String> = super::desk::files(&desk.at(folder)).into_keys().collect();
+            found.sort();
+            assert_eq!(found, made, "{line}");
+        }
+    }
+    // A folder stands where one of the pictures belongs.
+    std::fs::create_dir_all(desk.at("renders/prism-render.png")).unwrap();
+    let line = "render prism slanted.toml --size 16 --samples 1 --out renders";
+    assert!(desk.refused(line, 3).ends_with("1 of 2 files failed: prism\n"));
+    assert!(desk.at("renders/slanted-render.png").is_file());
+    // A report compares the designs that can be read, and names only those.
+    let (code, _, stderr) = desk.run("report tolkowsky none.toml cube.toml -o r.html --pixels 16");
+    assert!(code == 1 && stderr.ends_with("1 of 3 files failed: none.toml\n"), "{stderr}");
+    assert!(desk.read("r.html").contains("brillianteer report tolkowsky cube.toml"));
+}
+
+#[test]
+fn measures_of_a_frosted_stone_are_those_of_the_polished_one_with_a_warning() {
+    let desk = Desk::new();
+    desk.run("convert tolkowsky plain.asc");
+    let plain = desk.read("plain.asc");
+    let table = plain.lines().find(|line| line.starts_with("a 0")).unwrap();
+    desk.write("frosted.asc", plain.replace(table, &format!("{table} G Frosted")));
+    let (code, printed, stderr) =
+        desk.run("measure plain.asc frosted.asc --measures --unresolved 0.1 --json");
+    let lines: Vec<Value> = printed.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!((code, lines.len()), (0, 2), "{stderr}");
+    assert_eq!(lines[0]["measures"], lines[1]["measures"]);
+    assert_eq!((&lines[0]["as_polished"], &lines[1]["as_polished"]), (&Value::Null, &json!(true)));
+    assert!(stderr.contains("measures of light are those of the stone as if they were polished"), "{stderr}");
+    let swept =
+        desk.run("sweep frosted.asc plain.asc --over index=1.6,1.7 --of return-even --unresolved 0.2");
+    let rows: Vec<&str> = swept.1.lines().skip(1).map(|line| line.split_once(',').unwrap().1).collect();
+    assert_eq!((swept.0, rows.len()), (0, 4), "{}", swept.2);
+    assert_eq!(rows[..2], rows[2..]);
+}
+
+#[test]
+fn metal_without_stones_has_no_weight_of_stones() {
+    let desk = Desk::new();
+    desk.run("convert cube.toml metal.obj");
+    desk.write(
+        "scene.toml",
+        "format = 1\nname = \"bare\"\n[[metal]]\nmesh = \"metal.obj\"\nmetal = \"gold\"\n",
+    );
+    let (code, printed, stderr) = desk.run("info scene.toml");
+    assert!(code == 0 && !printed.contains("weight") && !printed.contains("-0"), "{printed}{stderr}");
+    assert_eq!(desk.json("info --json scene.toml")["carats"], json!(0.0));
 }
 
 #[test]

@@ -56,6 +56,78 @@ fn a_mesh_is_read_as_facets_or_triangles_by_every_command() {
     assert!(faceted["facets"].as_array().unwrap().len() >= 6 && faceted["triangles"].is_null());
 }
 
+/// A box of 8 by 8 by 4 units.
+const BOX: &str = "v 4 4 2\nv -4 4 2\nv -4 -4 2\nv 4 -4 2\nv 4 4 -2\nv -4 4 -2\nv -4 -4 -2\nv 4 -4 -2\n\
+    f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+
+#[test]
+fn the_size_of_a_mesh_is_told_and_may_be_given_by_its_unit_or_by_the_stone() {
+    let desk = Desk::new();
+    desk.write("box.obj", BOX);
+    let assumed =
+        "note: box.obj: the file states no unit; it is taken to be in mm, so that the stone is 8 mm across";
+    for (options, diameter_mm, is_told) in [
+        ("", 8.0, true),
+        ("--unit mm", 8.0, false),
+        ("--unit in", 203.2, false),
+        ("--unit 0.5mm", 4.0, false),
+        ("--stone 7mm", 7.0, false),
+        ("--unit cm --stone 7mm", 7.0, false),
+    ] {
+        let (code, printed, stderr) = desk.run(&format!("info --json {options} box.obj"));
+        let value: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        assert_eq!(code, 0, "{options}: {stderr}");
+        assert!((at(&value, "diameter_mm") - diameter_mm).abs() < 1e-9, "{options}: {value}");
+        assert_eq!(stderr.contains(assumed), is_told, "{options}: {stderr}");
+    }
+    // A weight gives the size that weighs it.
+    let (_, printed, _) = desk.run("info --json --stone 2ct box.obj");
+    let value: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert!((at(&value, "carats") - 2.0).abs() < 1e-9, "{value}");
+    for (options, told) in [
+        ("--unit feet", "'feet' is not a unit; give mm, cm, m, in, um, or the length of one unit in mm"),
+        ("--unit m", "with a unit of 1000 mm the stone is 8000 mm across, where 0.1 to 1000 mm are possible"),
+    ] {
+        let (code, _, stderr) = desk.run(&format!("info {options} box.obj"));
+        assert!(code != 0 && stderr.contains(told), "{options}: {stderr}");
+    }
+    // The size is kept by a conversion.
+    desk.run("convert --unit cm box.obj large.stl");
+    let (_, printed, _) = desk.run("info --json large.stl");
+    let value: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert!((at(&value, "diameter_mm") - 80.0).abs() < 1e-9, "{value}");
+}
+
+#[test]
+fn one_of_several_bodies_is_chosen_by_its_number_or_name_in_every_command() {
+    let desk = Desk::new();
+    let body = |name: &str, height: u32, x: u32| {
+        let base = format!("v {x} -1 0\nv {} 0 0\nv {x} 1 0\nv {}.0 0 0\n", x + 1, x - 1);
+        let faces = "f -2 -3 -4 -5\nf -5 -4 -1\nf -4 -3 -1\nf -3 -2 -1\nf -2 -5 -1\n";
+        format!("o {name}\n{base}v {x} 0 {height}\n{faces}")
+    };
+    desk.write(
+        "two.obj",
+        &(body("low", 1, 5) + &body("high", 4, 20) + "v 0 0 9\nv 1 0 9\nv 0 1 9\nf -1 -2 -3\n"),
+    );
+    for command in COMMANDS {
+        for (part, read) in [("", "2 is read"), (" --part 1", "1 is read"), (" --part LOW", "1 is read")] {
+            let command = format!("{}{part}", command.replace("FILE", "two.obj"));
+            let (code, _, stderr) = desk.run(&command);
+            let list = "2 separate bodies are in the file: 1 `low` (6 triangles); 2 `high`";
+            assert!(code == 0 && stderr.contains(list) && stderr.contains(read), "{command}: {stderr}");
+            assert!(stderr.contains("is no closed surface and is left out"), "{command}: {stderr}");
+        }
+    }
+    let (code, _, stderr) = desk.run("info --part 3 two.obj");
+    assert!(
+        code != 0 && stderr.contains("two.obj: there is no body 3 in the file, which has 1 `low`"),
+        "{stderr}"
+    );
+    let (_, _, stderr) = desk.run("info two.obj");
+    assert!(stderr.contains("note: two.obj: --part NUMBER, --part NAME or --part all chooses"), "{stderr}");
+}
+
 #[test]
 fn what_is_kept_of_a_design_is_told_for_each_format_of_meshes() {
     let desk = Desk::new();

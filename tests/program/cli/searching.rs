@@ -19,6 +19,9 @@ fn a_better_brilliant_is_found_written_and_measured_as_it_was_promised() {
         let after = at(number, "after");
         assert!((at(number, "least")..=at(number, "most")).contains(&after), "{number}");
     }
+    // The audit is part of the result, and finds nothing new.
+    let audit = &found["audit"];
+    assert!(at(audit, "after") <= at(audit, "before"), "{audit}");
     // The curve rises to the end.
     let curve: Vec<f64> =
         found["curve"].as_array().unwrap().iter().map(|point| point[1].as_f64().unwrap()).collect();
@@ -35,7 +38,7 @@ fn a_better_brilliant_is_found_written_and_measured_as_it_was_promised() {
         assert!(at(own, "most") >= least && at(own, "least") <= most, "{value} {own}");
     }
     let listed = desk.done(&format!("optimise tolkowsky {goal} {QUICK}"));
-    for words in ["Won\n", "Numbers\n", "designs appraised", "Crown angle", "from 39 to 43"] {
+    for words in ["Won\n", "Numbers\n", "Audit\n", "designs appraised", "Crown angle", "from 39 to 43"] {
         assert!(listed.contains(words), "{words}: {listed}");
     }
     assert_eq!(listed, desk.done(&format!("optimise tolkowsky {goal} {QUICK}")), "two runs differ");

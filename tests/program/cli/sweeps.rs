@@ -80,7 +80,7 @@ fn the_weighted_light_return_has_a_standard_error_and_no_view() {
     let row = table.lines().find(|row| row.starts_with("wlr ")).unwrap();
     assert!(row.contains(&shown) && row.contains("(standard error)"), "{row} is not {shown}");
     assert!(desk.refused("measure tolkowsky --wlr", 2).contains("--measures"));
-    assert!(desk.refused("sweep tolkowsky --of wlr", 2).contains("measure --measures --wlr"));
+    assert!(desk.refused("sweep tolkowsky --of wlr", 2).contains("wlr is sampled and has no bound"));
 }
 
 #[test]

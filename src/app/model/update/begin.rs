@@ -4,23 +4,42 @@ use super::{safe, searching};
 use crate::app::model::Model;
 use crate::app::model::audit::SessionAudit;
 use crate::app::model::document::Document;
-use crate::app::model::preset::{PRESETS, Preset};
+use crate::app::model::preset::Preset;
+use crate::app::model::recovery::{KeptScene, RecoveredWork};
 use crate::app::model::session::RingMaking;
 use crate::app::model::task::Task;
+use crate::app::model::view_history::{ViewHistory, ViewState};
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
+use crate::scene::Companions;
 
-/// Begins to work on another document, under the present light.
-pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
+/// How a document takes the place of the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Begun {
+    /// With a history of its own.
+    Anew,
+    /// As a step of undo, which leads back to the document before.
+    AsStep,
+}
+
+/// Begins to work on another document.
+pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, document: Document, begun: Begun) {
     searching::begin(model, tasks);
-    let work = &model.document.work;
-    let (light, exposure) = model.workspace.light_after_scene((work.light.clone(), work.exposure));
-    document.begin(&light, exposure, work.head);
-    model.document = document;
-    let Model { document, workspace, session } = model;
-    session.framing.renew(document.specimen());
+    let before = std::mem::replace(&mut model.document, document);
+    if begun == Begun::AsStep {
+        model.document.go_on_from(before, ViewState::of(&model.workspace));
+    }
+    renew(model);
+    model.workspace.begin_views();
+    model.session.views = ViewHistory::new(&model.workspace);
+    safe::note(model, tasks);
+}
+
+/// Ends what the session knows of the document before.
+fn renew(model: &mut Model) {
+    let Model { document, session, .. } = model;
+    session.framing.renew(document);
     session.motion.rest();
-    workspace.rest();
     session.held = None;
     session.tier = None;
     session.picking = None;
@@ -28,6 +47,9 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.ring = RingMaking::default();
     session.audit = SessionAudit::default();
     session.map.begin();
+    session.liquid_light = None;
+    session.flowing = Default::default();
+    session.safe.restoring = None;
     // The figures in the session are those of the stone before.
     session.measured.figures.retain(|which, _| *which != Which::Present);
     session.measured.tilts = None;
@@ -36,57 +58,92 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.on_disk = None;
     // The action waited for the document before to be saved.
     session.after_save = None;
-    // A new stone is first seen face up.
-    workspace.face_up();
     session.notes.clear();
     if session.compared.as_ref().is_some_and(|c| c.is_saved) {
         compare_no_more(model);
     }
+}
+
+/// Goes on with a design to which undo or redo has led from that of another origin, in the views that it had.
+pub fn come_back(model: &mut Model, tasks: &mut Vec<Task>, left: usize) {
+    let views = ViewState::of(&model.workspace);
+    if let Some(views) = model.document.exchange_views(left, views) {
+        views.lay(&mut model.workspace);
+    }
+    renew(model);
+    model.session.views = ViewHistory::new(&model.workspace);
     safe::note(model, tasks);
 }
 
 /// Begins a document that has been read again from the file of the present one; no view moves.
 pub fn begin_again(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
-    let (workspace, framing) = (model.workspace.clone(), model.session.framing.clone());
-    document.take_copies(&model.document);
-    begin(model, tasks, document);
-    (model.workspace, model.session.framing) = (workspace, framing);
+    searching::begin(model, tasks);
+    let framing = model.session.framing.clone();
+    document.take_scene(&model.document);
+    model.document = document;
+    renew(model);
+    model.session.framing = framing;
+    safe::note(model, tasks);
     model.session.notes.say("The file was changed by another program and has been read again.");
 }
 
-/// Begins a design from a cut that comes with the program.
-pub fn begin_library(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
+/// Begins a design that was read from a file. A shape of glass begins in the scene that shows it best.
+pub fn begin_design(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
+    match Preset::of_glass(&document.work.design.cut) {
+        Some(preset) => {
+            document.begin_with(preset.copies.clone(), Companions::default(), preset.settings());
+            begin(model, tasks, document, Begun::Anew);
+            show_scene(model, &preset);
+        }
+        None => begin(model, tasks, document, Begun::Anew),
+    }
+}
+
+/// Begins a design from a cut that comes with the program; a shape of glass begins as its preset.
+pub fn begin_library(model: &mut Model, tasks: &mut Vec<Task>, name: &str, begun: Begun) {
     let document = Document::of_library(name);
     let Some(document) = model.session.notes.ok_or_report(document) else { return };
+    if let Some(preset) = Preset::of_glass(&document.work.design.cut) {
+        return begin_scene(model, tasks, preset, begun);
+    }
     model.workspace.last = None;
-    begin(model, tasks, document);
+    begin(model, tasks, document, begun);
     // A block of rough can be shaped only by its tiers.
     model.workspace.shows_tiers |= model.has_tiers();
 }
 
 /// Begins a scene that comes with the program.
-pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
+pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str, begun: Begun) {
     let preset = Preset::of_library(name);
     let Some(preset) = model.session.notes.ok_or_report(preset) else { return };
-    // The scene is made to be seen as a render.
-    begin_scene(model, tasks, preset, Alone::Render);
-    model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
+    begin_scene(model, tasks, preset, begun);
 }
 
-/// The view that is shown alone where a scene begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Alone {
-    /// The layout stays as it is.
-    None,
-    /// One view fills the window and shows a render, as long as the scene is open.
-    Render,
+/// Begins a document with the scene, the settings and the views that were kept of it.
+pub fn begin_restored(
+    model: &mut Model,
+    tasks: &mut Vec<Task>,
+    mut document: Document,
+    found: RecoveredWork,
+) {
+    let KeptScene { copies, companions, settings, views } = found.around;
+    let companions = companions.built();
+    let companions = model.session.notes.ok_or_report(companions).unwrap_or_default();
+    document.begin_with(copies, companions, settings);
+    begin(model, tasks, document, Begun::Anew);
+    match views {
+        Some(views) => views.lay(&mut model.workspace),
+        None if model.is_scene() => model.workspace.show_scene(None),
+        None => {}
+    }
+    model.session.views = ViewHistory::new(&model.workspace);
 }
 
-/// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
-pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset, alone: Alone) {
-    let Preset { design, copies, companions, scene, wavelengths, remarks } = preset;
-    let document = Document::new(design, None);
+/// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its background.
+pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset, begun: Begun) {
+    let document = Document::new(preset.design.clone(), None);
     let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
+    let Preset { copies, companions, .. } = &preset;
     let laid = copies.poses(document.specimen().solid().vertices(), None);
     let is_laid = !companions.is_empty() || laid == copies.poses;
     let layers = if is_laid { "" } else { ", some of them farther back so that none overlap" };
@@ -94,32 +151,22 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset, alo
         true => format!("renders show all copies{layers}; other views show one"),
         false => "renders show the whole scene; other views show the stone that is edited".to_owned(),
     };
-    (document.work.copies, document.work.companions) = (copies, companions);
-    document.work.remarks = remarks.into();
-    document.keep_copies();
+    document.work.remarks = preset.remarks.clone().into();
+    document.begin_with(copies.clone(), companions.clone(), preset.settings());
+    document.call_scene(&preset.scene.name);
     model.workspace.last = None;
-    let work = &model.document.work;
-    let before = model.workspace.light_after_scene((work.light.clone(), work.exposure));
-    // The new scene brings a light of its own.
-    model.workspace.forget_light();
-    // These settings are part of the scene's beginning, and no step of undo.
-    model.document.work.exposure = scene.exposure;
-    if let Some(light) = scene.light {
-        let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
-        model.document.work.light = light.to_string_lossy().into_owned();
-    }
-    begin(model, tasks, document);
+    begin(model, tasks, document, begun);
+    show_scene(model, &preset);
+    model.session.notes.say(&format!("{}: {shown}", preset.scene.name));
+}
+
+/// Shows a render of the present scene alone, as its file states it: in perspective or not, and moving or not.
+fn show_scene(model: &mut Model, preset: &Preset) {
     let reach = model.reach(Shows::Render);
-    let Model { workspace, session, document } = model;
-    workspace.enter_scene(scene.background.as_ref().map(ToString::to_string), wavelengths);
-    if alone == Alone::Render {
-        workspace.enlarge_render();
-    }
-    workspace.light_scene((document.work.light.clone(), document.work.exposure), before);
-    (workspace.light_turn, workspace.light_upright) = (scene.light_turn, scene.light_upright);
-    workspace.see_under(scene.angle_of_view.map(|angle| reach / (0.5 * angle).to_radians().tan()));
-    (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
-    session.notes.say(&format!("{}: {shown}", scene.name));
+    let distance = preset.scene.angle_of_view.map(|angle| reach / (0.5 * angle).to_radians().tan());
+    model.workspace.show_scene(distance);
+    model.session.views = ViewHistory::new(&model.workspace);
+    model.session.motion.is_on = preset.moves();
 }
 
 /// Ends the comparison and drops the other design with its figures.

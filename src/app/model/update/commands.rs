@@ -1,7 +1,7 @@
 //! Commands: when each is possible or switched on, and its effect.
 
 use super::begin::compare_no_more;
-use super::{dialogs, edits, files, fitting, searching};
+use super::{begin, dialogs, edits, files, fitting, searching};
 use crate::app::model::Model;
 use crate::app::model::action::{DialogAction, Edit, FileAction};
 use crate::app::model::choosing::Purpose;
@@ -10,7 +10,9 @@ use crate::app::model::compare::Compared;
 use crate::app::model::dialog::{AboutForm, Dialog, Then};
 use crate::app::model::eye::Eye;
 use crate::app::model::meet_pick::MeetPick;
+use crate::app::model::render_settings::SettingChange;
 use crate::app::model::task::{Task, WindowTask};
+use crate::app::model::work::Work;
 use crate::app::model::workspace::PaneLayout;
 use crate::cut::Cut;
 use crate::picture::DrawnMarks;
@@ -32,6 +34,7 @@ impl Model {
             Command::Tiers | Command::BenchMode => self.has_tiers(),
             Command::LayOut => self.document.work.copies.poses.len() > 1 && self.can_move(),
             Command::Play => self.can_move(),
+            Command::PreviousTilt => self.workspace.eye(self.active()).last.is_some(),
             Command::Split | Command::NoCompare => self.session.compared.is_some(),
             _ => true,
         }
@@ -88,9 +91,10 @@ impl Model {
         let workspace = &self.workspace;
         let overlay = |name| workspace.overlay.as_deref() == Some(name);
         match command {
-            Command::One => workspace.layout == PaneLayout::One,
-            Command::Two => workspace.layout == PaneLayout::Two,
-            Command::Four => workspace.layout == PaneLayout::Four,
+            // A view that is shown alone is one view, whatever the layout to which it goes back.
+            Command::One => workspace.shown().len() == 1,
+            Command::Two => workspace.shown().len() == 2,
+            Command::Four => workspace.shown().len() == 4,
             Command::Perspective => workspace.panes[self.active()].is_near,
             Command::EyeLeans => workspace.eye(self.active()).eye_leans,
             Command::Wireframe => overlay("wireframe"),
@@ -140,6 +144,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         Command::Retarget => fitting::open_retarget(model, tasks),
         Command::Yield => fitting::open_yield(model),
         Command::AnotherLight => another_light(model),
+        Command::ResetLight => edits::edit(model, Edit::ResetLight),
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
         Command::Search => searching::toggle(model, tasks),
         Command::Undo if model.meet_pick().is_some() => {
@@ -148,7 +153,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         }
         Command::Undo | Command::Redo => {
             searching::interrupt(model, tasks);
-            let beside = model.document.work.companions.clone();
+            let Work { companions: beside, origin, .. } = model.document.work.clone();
             if command == Command::Undo {
                 model.document.undo()
             } else {
@@ -158,9 +163,12 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             edits::note_meet_faults(model);
             // The step may have reordered the tiers.
             model.session.picking = None;
-            if model.document.work.companions != beside {
+            if model.document.work.origin != origin {
+                begin::come_back(model, tasks, origin);
+                edits::note_meet_faults(model);
+            } else if model.document.work.companions != beside {
                 // The step may have changed which stone of the scene is edited.
-                model.session.framing.renew(model.document.specimen());
+                model.session.framing.follow(&model.document);
             }
         }
         other => look(model, other),
@@ -172,11 +180,11 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
 fn another_light(model: &mut Model) {
     model.session.lights_drawn += 1;
     let [place, turn] = [0, 1].map(|k| scattered(2 * model.session.lights_drawn + k));
-    let present = &model.document.work.light;
-    let others: Vec<&str> = LIGHTS.into_iter().filter(|name| *name != present).collect();
+    let settings = &mut model.document.work.settings;
+    let others: Vec<&str> = LIGHTS.into_iter().filter(|name| *name != settings.light).collect();
     let name = others[(place * others.len() as f64) as usize % others.len()];
-    model.workspace.light_turn = (360.0 * turn - 180.0).round();
-    edits::edit(model, Edit::Light(name.to_owned()));
+    settings.light_turn = (360.0 * turn - 180.0).round();
+    edits::edit(model, Edit::Setting(SettingChange::Light(name.to_owned())));
 }
 
 /// Carries out a command that changes only the views.
@@ -189,7 +197,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Top => seen(model, Eye::top),
         Command::Side => seen(model, Eye::side),
         Command::Bottom => seen(model, Eye::bottom),
-        Command::Free => seen(model, Eye::free),
+        Command::PreviousTilt => seen(model, Eye::back),
         Command::Fit => seen(model, Eye::fit),
         Command::Perspective => {
             let pane = &mut workspace.panes[active];
@@ -216,7 +224,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Split => workspace.is_split = !workspace.is_split,
         Command::NoCompare => compare_no_more(model),
         Command::Play => session.motion.is_on = !session.motion.is_on,
-        Command::NextBehind => workspace.next_behind(),
+        Command::NextBehind => document.work.settings.next_background(),
         Command::Panels => workspace.hides_panels = !workspace.hides_panels,
         Command::BenchMode => workspace.cutting.is_open = !workspace.cutting.is_open,
         Command::Audit => workspace.shows_audit = !workspace.shows_audit,
@@ -224,7 +232,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Tiers => workspace.shows_tiers = !workspace.shows_tiers,
         Command::ResetView => {
             workspace.reset_view();
-            session.framing.renew(document.specimen());
+            session.framing.renew(document);
         }
         Command::LightPath => session.followed.is_open = !session.followed.is_open,
         Command::New => session.dialog = Some(Dialog::Cuts),
@@ -236,7 +244,7 @@ fn look(model: &mut Model, command: Command) {
 
 /// Fits the views to the present stone and moves the eye of the active view by `look`.
 fn seen(model: &mut Model, look: impl FnOnce(&mut Eye)) {
-    model.session.framing.renew(model.document.specimen());
+    model.session.framing.renew(&model.document);
     let active = model.active();
     look(model.workspace.eye_mut(active));
 }

@@ -76,7 +76,6 @@ pub fn stay_in_place(work: &mut Work, before_mm: f64) {
 /// Converts the places of copies to another unit, of which `factor` make one of the unit before.
 fn in_unit(copies: &mut Copies, factor: f64) {
     copies.poses.iter_mut().for_each(|pose| pose.at *= factor);
-    copies.room = copies.room.map(|room| room * factor);
 }
 
 /// Edits the design of a companion: all stones of its kind become the copies, and the former copies become
@@ -102,7 +101,7 @@ pub fn take_up(model: &mut Model, number: usize) {
     let in_unit = Pose { scale: 1.0 / unit_mm, ..Pose::STILL };
     let copies = Copies {
         poses: of_kind.iter().map(|stone| Pose { scale: 1.0, ..in_unit.after(&stone.pose) }).collect(),
-        room: copies.room.map(|room| room * own_mm / unit_mm),
+        room: None,
         movement: copies.movement,
     };
     let companions = Companions { stones: left.chain(others).collect(), ..companions.clone() };
@@ -110,5 +109,5 @@ pub fn take_up(model: &mut Model, number: usize) {
     // Each of these refers to the stone before.
     (session.held, session.tier, session.picking) = (None, None, None);
     session.meet_faults.clear();
-    session.framing.renew(document.specimen());
+    session.framing.follow(document);
 }

@@ -1,6 +1,6 @@
 //! Answers to dialogs.
 
-use super::begin::begin;
+use super::begin::begin_restored;
 use super::{files, fitting, safe};
 use crate::app::model::Model;
 use crate::app::model::action::{DialogAction, FileAction};
@@ -10,7 +10,7 @@ use crate::app::model::export::Selection;
 use crate::app::model::exporting::{ExportEvent, ExportForm, ExportRun};
 use crate::app::model::opening::OpeningPurpose;
 use crate::app::model::plan::export_plan;
-use crate::app::model::recovery::{KeptScene, RecoveredWork};
+use crate::app::model::recovery::RecoveredWork;
 use crate::app::model::task::Task;
 
 /// Takes an answer to the dialog that is open, or opens one.
@@ -105,16 +105,10 @@ fn keep(model: &mut Model, tasks: &mut Vec<Task>) {
 
 fn recover(model: &mut Model, tasks: &mut Vec<Task>, found: &RecoveredWork) {
     let document = Document::recovered(found);
-    let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
-    let KeptScene { copies, companions, behind, behind_mm, strength } = found.around.clone();
-    let companions = model.session.notes.ok_or_report(companions.built());
-    (document.work.copies, document.work.companions) = (copies, companions.unwrap_or_default());
+    let Some(document) = model.session.notes.ok_or_report(document) else { return };
     // The work is kept anew before the autosave file of the crash is removed.
     model.session.safe.replaces = Some(found.file.clone());
-    begin(model, tasks, document);
-    let workspace = &mut model.workspace;
-    workspace.behind = behind.or(workspace.behind.take());
-    (workspace.behind_mm, workspace.strength) = (behind_mm, strength.unwrap_or(1.0));
+    begin_restored(model, tasks, document, found.clone());
     safe::note(model, tasks);
 }
 

@@ -45,9 +45,11 @@ pub fn edit(model: &mut Model, edit: Edit) {
             note_meet_faults(model);
         }
         Edit::Diameter(mm) => work.design.diameter_mm = mm,
-        Edit::Light(name) => work.light = name,
-        Edit::Exposure(stops) => work.exposure = stops,
-        Edit::Head(degrees) => work.head = degrees,
+        Edit::Setting(change) => work.settings.change(change),
+        Edit::ResetLight => {
+            let first = model.document.first_settings().clone();
+            model.document.work.settings.reset_light(&first);
+        }
         Edit::LayOut(count) => lay_out(model, count),
         Edit::Movement(movement) => work.copies.movement = movement,
         Edit::Finish { bodies, metal, roughness } => {

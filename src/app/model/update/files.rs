@@ -1,13 +1,18 @@
 //! Opens, saves and watches files.
 
-use super::begin::{Alone, begin, begin_again, begin_library, begin_preset, begin_scene};
+use super::begin::{
+    Begun, begin_again, begin_design, begin_library, begin_preset, begin_restored, begin_scene,
+};
 use super::{safe, searching};
 use crate::app::model::Model;
 use crate::app::model::action::{Edit, FileAction};
 use crate::app::model::choosing::{Choice, Purpose, Question};
 use crate::app::model::compare::Compared;
 use crate::app::model::dialog::{Dialog, PathForm, Then};
+use crate::app::model::document::Document;
 use crate::app::model::opening::{FileRequest, OpenedFile, Opening, OpeningPurpose};
+use crate::app::model::recovery::RecoveredWork;
+use crate::app::model::render_settings::SettingChange;
 use crate::app::model::saving::SavedDesign;
 use crate::app::model::session::Session;
 use crate::app::model::task::{Task, WindowTask};
@@ -27,6 +32,8 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
         FileAction::Ask(then) => ask_before(model, tasks, then),
         FileAction::Choose(purpose) => choose(model, tasks, purpose),
         FileAction::Chosen(question, choice) => answered(model, tasks, question, choice),
+        FileAction::Begin(next) => carry_out(model, tasks, next, Begun::Anew),
+        FileAction::Restore(found) => restore(model, tasks, *found),
         FileAction::Open(path, purpose) => open(model, tasks, path, purpose),
         FileAction::OpenWith(request) => open_with(model, tasks, request),
         FileAction::Opened(request, read) => is_read(model, &request, read),
@@ -56,9 +63,9 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
         }
         FileAction::Close => close(model, tasks),
         FileAction::Ended => {
+            safe::keep_last(model, tasks, true);
             // Where the system closed the window without asking the user, the autosave stays for the next start.
-            let is_safe = !model.document.is_changed() && !model.document.has_moved_copies();
-            if model.session.may_close || is_safe {
+            if model.session.may_close || !model.document.is_changed() {
                 safe::empty(model, tasks);
             }
         }
@@ -71,7 +78,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
 pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
     open_read(model, tasks);
     let light = &mut model.session.light;
-    let name = &model.document.work.light;
+    let name = &model.document.work.settings.light;
     if light.tried != *name && light.loading.as_ref() != Some(name) {
         light.loading = Some(name.clone());
         tasks.push(Task::LoadLight(name.clone()));
@@ -107,23 +114,47 @@ fn changed_outside(model: &mut Model, tasks: &mut Vec<Task>) {
 fn ask_before(model: &mut Model, tasks: &mut Vec<Task>, next: Then) {
     if model.session.dialog.as_ref().is_some_and(Dialog::insists) {
         model.session.notes.say("Answer the open dialog first.");
-    } else if model.document.is_changed() {
+    } else if loses_design(model, &next) {
         model.session.dialog = Some(Dialog::Unsaved(next));
-    } else if model.document.has_moved_copies() {
+    } else if loses_copies(model, &next) {
         model.session.dialog = Some(Dialog::Moved(next));
     } else {
         then(model, tasks, next);
     }
 }
 
+/// Returns whether an action loses unsaved changes of the design.
+///
+/// What comes with the program takes the place of a design as a step of undo. So only a design with a file, which is left
+/// unsaved, is asked about.
+fn loses_design(model: &Model, next: &Then) -> bool {
+    let is_step = matches!(next, Then::Library(_) | Then::Preset(_));
+    model.document.is_changed() && (!is_step || model.document.path().is_some())
+}
+
+/// Returns whether an action loses the places of copies: those of the last work are there again at the next start.
+fn loses_copies(model: &Model, next: &Then) -> bool {
+    let is_kept = match next {
+        Then::Library(_) | Then::Preset(_) => true,
+        Then::Close => model.session.safe.is_on,
+        Then::Open(..) => false,
+    };
+    model.document.has_moved_copies() && !is_kept
+}
+
 /// Carries out the action that waited for the answer to a question.
 pub fn then(model: &mut Model, tasks: &mut Vec<Task>, then: Then) {
+    carry_out(model, tasks, then, Begun::AsStep);
+}
+
+/// Carries out an action; `begun` says whether what comes with the program is a step of undo.
+fn carry_out(model: &mut Model, tasks: &mut Vec<Task>, then: Then, begun: Begun) {
     match then {
         Then::Open(path, mesh) => {
             open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Anew, path, mesh })
         }
-        Then::Library(name) => begin_library(model, tasks, &name),
-        Then::Preset(name) => begin_preset(model, tasks, &name),
+        Then::Library(name) => begin_library(model, tasks, &name, begun),
+        Then::Preset(name) => begin_preset(model, tasks, &name, begun),
         Then::Close => {
             model.session.may_close = true;
             tasks.push(Task::Window(WindowTask::Close));
@@ -139,10 +170,10 @@ fn close(model: &mut Model, tasks: &mut Vec<Task>) {
         return;
     } else if session.awaited.saving.is_some() {
         session.after_save = Some(Then::Close);
-    } else if model.document.is_changed() {
-        session.dialog = Some(Dialog::Unsaved(Then::Close));
-    } else if model.document.has_moved_copies() {
-        session.dialog = Some(Dialog::Moved(Then::Close));
+    } else if loses_design(model, &Then::Close) {
+        model.session.dialog = Some(Dialog::Unsaved(Then::Close));
+    } else if loses_copies(model, &Then::Close) {
+        model.session.dialog = Some(Dialog::Moved(Then::Close));
     } else {
         return;
     }
@@ -171,7 +202,7 @@ pub fn choose(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose) {
 fn suggested(model: &Model) -> String {
     let document = &model.document;
     let is_design = document.path().is_some_and(holds_designs);
-    if is_design { document.title() } else { format!("{}.toml", document.stem()) }
+    if is_design { document.title() } else { format!("{}.toml", document.design_stem()) }
 }
 
 fn answered(model: &mut Model, tasks: &mut Vec<Task>, question: Question, choice: Choice) {
@@ -204,8 +235,14 @@ pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, docume
         Purpose::Open => ask_before(model, tasks, Then::open(path)),
         Purpose::SaveAs => save_as(model, tasks, path),
         Purpose::Compare => open(model, tasks, path, OpeningPurpose::Beside),
-        Purpose::Light => super::edits::edit(model, Edit::Light(path.display().to_string())),
-        Purpose::Behind => model.workspace.behind = Some(path.display().to_string()),
+        Purpose::Light => {
+            let light = SettingChange::Light(path.display().to_string());
+            super::edits::edit(model, Edit::Setting(light));
+        }
+        Purpose::Behind => {
+            let background = SettingChange::Background(Some(path.display().to_string()));
+            super::edits::edit(model, Edit::Setting(background));
+        }
         Purpose::Goal => tasks.push(Task::ReadGoal(path)),
         Purpose::SaveGoal => searching::save_goal(model, tasks, path),
         Purpose::Folder => {
@@ -250,7 +287,10 @@ fn is_read(model: &mut Model, request: &FileRequest, read: Result<OpenedFile, Fa
     let Some(place) = awaited.opening.iter().position(|opening| opening.request == *request) else { return };
     match notes.ok_or_report(read) {
         Some(file) => awaited.opening[place].read = Some(file),
-        None => drop(awaited.opening.remove(place)),
+        None => {
+            awaited.opening.remove(place);
+            model.session.safe.restoring = None;
+        }
     }
 }
 
@@ -286,14 +326,35 @@ fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
         (OpeningPurpose::Anew, OpenedFile::Design(document)) => {
             model.workspace.remember(&request.path);
             let is_doubtful = document.work.mesh.as_ref().is_some_and(|mesh| mesh.is_doubtful);
-            begin(model, tasks, *document);
+            match model.session.safe.restoring.take_if(|found| found.path.as_ref() == Some(&request.path)) {
+                Some(found) => begin_restored(model, tasks, *document, *found),
+                None => begin_design(model, tasks, *document),
+            }
             if is_doubtful {
                 model.session.notes.say(DOUBTFUL);
             }
         }
         (_, OpenedFile::Scene(preset)) => {
-            begin_scene(model, tasks, *preset, Alone::None);
+            begin_scene(model, tasks, *preset, Begun::Anew);
             model.workspace.remember(&request.path);
+        }
+    }
+}
+
+/// Opens the work that was open when the program last ended: from its file, if it has one.
+fn restore(model: &mut Model, tasks: &mut Vec<Task>, found: RecoveredWork) {
+    match &found.path {
+        Some(path) => {
+            let (path, mesh) =
+                (path.clone(), found.mesh.as_ref().map(|mesh| mesh.options).unwrap_or_default());
+            model.session.safe.restoring = Some(Box::new(found));
+            open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Anew, path, mesh });
+        }
+        None => {
+            let document = Document::new(found.design.clone(), None);
+            if let Some(document) = model.session.notes.ok_or_report(document) {
+                begin_restored(model, tasks, document, found);
+            }
         }
     }
 }
@@ -370,6 +431,7 @@ fn take_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: SavedDesign) {
     if !document.is_changed() {
         safe::empty(model, tasks);
     }
+    safe::keep_last(model, tasks, false);
 }
 
 fn dropped(model: &mut Model, tasks: &mut Vec<Task>, files: Vec<(PathBuf, Purpose)>) {

@@ -24,13 +24,34 @@ use std::sync::Arc;
 /// Changes a model by an action; returns the tasks that follow from it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
     let mut tasks = vec![];
+    let before = scene_unit(model);
     perform(model, &mut tasks, action);
+    keep_eyes(model, before);
     searching::follow(model, &mut tasks);
     scene_ring::follow(model, &mut tasks);
     files::wanted(model, &mut tasks);
     want_audit(model, &mut tasks);
     want_sweeps(model);
     tasks
+}
+
+/// Returns the number of the document and the unit of its lengths in views, in mm, where it is a scene of several
+/// designs; `None` where it is not.
+fn scene_unit(model: &Model) -> Option<(u64, f64)> {
+    let is_scene = !model.document.work.companions.is_empty();
+    is_scene.then(|| (model.session.begun, model.document.specimen().unit_mm()))
+}
+
+/// Leaves the eyes where they are in a scene, in mm, where the design has another size now or another stone of the
+/// scene is edited.
+fn keep_eyes(model: &mut Model, before: Option<(u64, f64)>) {
+    if let (Some((document, was)), Some((present, is))) = (before, scene_unit(model))
+        && document == present
+        && was != is
+    {
+        model.workspace.eyes_in_unit(was / is);
+        model.session.views.in_unit(was / is);
+    }
 }
 
 fn perform(model: &mut Model, tasks: &mut Vec<Task>, action: Action) {
@@ -78,7 +99,7 @@ fn noted(model: &mut Model, note: NoteAction) {
 }
 
 fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
-    let Model { workspace, session, .. } = model;
+    let Model { session, .. } = model;
     match computed {
         Computed::Light(name, loaded) => {
             match loaded {
@@ -89,8 +110,6 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
                 Err(why) => session.notes.trouble(format!("{why}; the light stays as it was")),
             }
             (session.light.tried, session.light.loading) = (name, None);
-            // The next start begins with the last light that could be loaded.
-            workspace.light.clone_from(&session.light.name);
         }
         Computed::Figures(which, order, grade, figures) => {
             // The document or the comparison may have ended after the figures were ordered.
@@ -140,15 +159,16 @@ fn end_frame(model: &mut Model, tasks: &mut Vec<Task>, end: FrameEnd) {
     if end.is_gesture {
         return;
     }
-    model.session.framing.settle(model.document.specimen());
+    model.session.framing.settle(&model.document);
     model.workspace.eye.settle();
     model.workspace.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
     model.session.views.note(&model.workspace, end.now);
-    match model.session.search.running() {
+    let has_changed = match model.session.search.running() {
         // All changes by a search become one step when it ends.
         Some(running) => model.document.settle_with(running.before()),
         None => model.document.settle(),
     };
+    model.session.notes.settle(has_changed);
     if model.session.safe.noted != model.document.work {
         safe::note(model, tasks);
     }

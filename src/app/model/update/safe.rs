@@ -1,39 +1,54 @@
-//! Keeps the autosave up to date.
+//! Keeps the autosave up to date, and the work with which the next start begins.
 
 use crate::app::model::Model;
 use crate::app::model::recovery::{KeptCompanions, KeptScene, UnsavedWork};
 use crate::app::model::task::Task;
+use crate::app::model::view_history::ViewState;
+use crate::app::model::work::Work;
 
-/// Writes the present work to the autosave, and stores its exposure and head in the workspace.
+/// Writes the present work to the autosave, and keeps it for the next start.
 ///
 /// A design that makes no stone does not replace the last design that made one.
 pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
-    let Model { document, workspace, session } = model;
-    session.safe.noted = document.work.clone();
-    (workspace.exposure, workspace.head) = (document.work.exposure, document.work.head);
-    if !document.is_changed() && !document.has_moved_copies() {
+    model.session.safe.noted = model.document.work.clone();
+    keep_last(model, tasks, false);
+    let Model { document, session, .. } = &mut *model;
+    // Copies that were moved are there at the next start in any case.
+    if !document.is_changed() {
         return empty(model, tasks);
     }
     if !session.safe.is_on || document.fault().is_some() {
         return;
     }
     session.safe.is_kept = true;
+    // Of several waiting autosaves only the newest is written, so each carries the order to remove the file of the crash.
+    let replaces = session.safe.replaces.clone();
+    let kept = kept(model, model.document.work.clone());
+    tasks.push(Task::Keep(Box::new(UnsavedWork { replaces, ..kept })));
+}
+
+/// Keeps the document for the next start: its design as it was last saved or opened, and all around it as it is now. What was kept
+/// already is not written again, unless the program ends, because views may have changed.
+pub fn keep_last(model: &mut Model, tasks: &mut Vec<Task>, is_end: bool) {
+    let Model { document, session, .. } = &mut *model;
+    let work = Work { design: document.saved().clone(), ..document.work.clone() };
+    if !session.safe.is_on || (!is_end && session.safe.last.as_ref() == Some(&work)) {
+        return;
+    }
+    session.safe.last = Some(work.clone());
+    tasks.push(Task::KeepLast(Box::new(kept(model, work))));
+}
+
+/// Returns work of the present document in the form in which it is kept.
+fn kept(model: &Model, work: Work) -> UnsavedWork {
     let around = KeptScene {
-        copies: document.work.copies.clone(),
-        companions: KeptCompanions::of(&document.work.companions),
-        behind: workspace.behind.clone(),
-        behind_mm: workspace.behind_mm,
-        strength: Some(workspace.strength),
+        copies: work.copies.clone(),
+        companions: KeptCompanions::of(&work.companions),
+        settings: work.settings.clone(),
+        views: Some(ViewState::of(&model.workspace)),
     };
-    let path = document.path().map(std::path::Path::to_owned);
-    tasks.push(Task::Keep(Box::new(UnsavedWork {
-        work: document.work.clone(),
-        around,
-        path,
-        // Of several waiting autosaves only the newest is written, so each carries the order to remove the file of
-        // the crash.
-        replaces: session.safe.replaces.clone(),
-    })));
+    let path = model.document.path().map(std::path::Path::to_owned);
+    UnsavedWork { work, around, path, replaces: None }
 }
 
 /// Removes the autosave, because the work is saved or discarded, and the autosave of the crash that the work

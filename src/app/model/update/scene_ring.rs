@@ -10,7 +10,7 @@ use crate::app::model::task::Task;
 use crate::app::model::work::Work;
 use crate::cut::Design;
 use crate::io::Failure;
-use crate::scene::{Companion, Copies, Pose, Ring, RingMetal, RingPlan, SeatKind, Specimen};
+use crate::scene::{Companion, Pose, Ring, RingMetal, RingPlan, SeatKind, Specimen};
 use std::sync::Arc;
 
 /// Orders metal where that of the ring was made of other numbers or stones than the present ones, unless some is being made
@@ -102,8 +102,6 @@ fn fit(document: &mut Document, made_of: RingPlan, RingMetal { mesh, seats }: Ri
         }
     }
     (ring.made_of, ring.seats) = (made_of, seats);
-    let room = Copies::at(copies.poses.clone(), specimen.solid().vertices()).reach(specimen.reach);
-    copies.room = Some(room.max(companions.across() / specimen.unit_mm()));
 }
 
 /// Replaces the stones of a specimen among companions by such stones in these places, in mm. The others keep their order.

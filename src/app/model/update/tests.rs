@@ -8,10 +8,11 @@ use crate::app::model::action::{Computed, DialogAction, Edit, FileAction, FrameE
 use crate::app::model::choosing::{Choice, Purpose};
 use crate::app::model::command::Command;
 use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::document::{Document, FIRST_LIGHT};
+use crate::app::model::document::Document;
 use crate::app::model::exporting::ExportEvent;
-use crate::app::model::opening::{FileRequest, OpeningPurpose};
+use crate::app::model::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use crate::app::model::plan::export_plan;
+use crate::app::model::render_settings::{FIRST_LIGHT, SettingChange};
 use crate::app::model::saving::Stamp;
 use crate::app::model::task::WindowTask;
 use crate::app::model::workspace::Workspace;
@@ -102,11 +103,11 @@ fn all_edits_of_a_gesture_are_one_step_that_is_undone_and_done_again() {
         bench.end_frame(true);
     }
     bench.end_frame(false);
-    bench.act(Edit::Exposure(1.0));
+    bench.act(Edit::Setting(SettingChange::Exposure(1.0)));
     bench.end_frame(false);
     let last = bench.model.document.work.clone();
     bench.act(Command::Undo);
-    assert_eq!((bench.diameter(), bench.model.document.work.exposure), (6.8, 0.0));
+    assert_eq!((bench.diameter(), bench.model.document.work.settings.exposure), (6.8, 0.0));
     bench.act(Command::Undo);
     assert_eq!(bench.model.document.work, first);
     assert!(!bench.model.is_possible(Command::Undo) && bench.model.is_possible(Command::Redo));
@@ -157,16 +158,20 @@ fn of_two_files_the_one_that_was_asked_for_last_is_opened() {
 #[test]
 fn a_design_without_a_file_is_saved_where_the_user_says_and_what_waited_for_it_follows() {
     let folder = tempfile::tempdir().unwrap();
+    let other = folder.path().join("other.toml");
+    let design = Document::of_library("modern-ideal").unwrap().work.design;
+    std::fs::write(&other, cut_file::write(&design)).unwrap();
     let mut bench = Bench::new();
     bench.act(Edit::Diameter(7.0));
-    bench.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
+    bench.act(FileAction::Ask(Then::open(other)));
     let tasks = bench.act(DialogAction::Keep);
     let Some(Task::ChooseFile(question)) = tasks.into_iter().next() else { panic!() };
     assert_eq!((question.purpose, question.name.as_str()), (Purpose::SaveAs, "tolkowsky-1919.toml"));
     let path = folder.path().join("mine.toml");
     let tasks = bench.act(FileAction::Chosen(question, Choice::File(path.clone())));
     assert!(bench.model.session.awaited.saving.is_some());
-    bench.save(tasks);
+    let tasks = bench.save(tasks);
+    bench.read(tasks);
     assert_eq!(bench.model.document.work.design.name, "Modern ideal");
     assert!(bench.model.session.awaited.saving.is_none());
     assert_eq!(cut_file::read(&path).unwrap().diameter_mm, 7.0);
@@ -179,7 +184,8 @@ fn work_that_a_crash_left_is_offered_kept_anew_and_forgotten() {
     bench.act(Edit::Diameter(7.25));
     let tasks = bench.end_frame(false);
     let mut safe = Autosave::new(folder.path().to_owned());
-    let Some(Task::Keep(unsaved)) = tasks.into_iter().next() else { panic!("it is not kept") };
+    let kept = |task| if let Task::Keep(unsaved) = task { Some(unsaved) } else { None };
+    let unsaved = tasks.into_iter().find_map(kept).expect("it is kept");
     safe.keep(&unsaved).unwrap();
     drop(safe);
     let found = Autosave::new(folder.path().to_owned()).found();
@@ -194,12 +200,22 @@ fn work_that_a_crash_left_is_offered_kept_anew_and_forgotten() {
     assert!(next.model.document.is_changed() && next.dialog().is_none());
     // Of several waiting autosaves only the newest is written, so each of them must remove the file.
     let replaces = |task: &Task| matches!(task, Task::Keep(kept) if kept.replaces.as_ref() == Some(&file));
-    assert!(!tasks.is_empty() && tasks.iter().all(replaces) && file.exists());
+    let mut kept = tasks.iter().filter(|task| !matches!(task, Task::KeepLast(_))).peekable();
+    assert!(kept.peek().is_some() && kept.all(replaces) && file.exists());
     next.act(Edit::Diameter(7.5));
     assert!(has(&next.end_frame(false), replaces));
     let forgets = |task: &Task| matches!(task, Task::Forget(path) if *path == file);
-    next.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
-    assert!(has(&next.act(DialogAction::GiveUp), forgets));
+    next.act(FileAction::Ask(Then::open("other.toml".into())));
+    next.act(DialogAction::GiveUp);
+    let tasks = next.act(FileAction::Opened(
+        FileRequest {
+            purpose: OpeningPurpose::Anew,
+            path: "other.toml".into(),
+            mesh: MeshOptions::default(),
+        },
+        Ok(OpenedFile::Design(Box::new(Document::first().unwrap()))),
+    ));
+    assert!(has(&tasks, forgets));
     assert!(!has(&next.act(FileAction::Ended), forgets), "it is removed once");
     let mut other = Bench::new();
     other.act(FileAction::Found(found));
@@ -222,7 +238,8 @@ fn saved_work_is_kept_no_longer_and_impossible_work_does_not_replace_the_last_po
     let tasks = bench.act(Command::Save);
     let tasks = bench.save(tasks);
     assert!(has(&tasks, |task| matches!(task, Task::EmptySafe)) && !bench.model.document.is_changed());
-    assert!(bench.act(FileAction::Ended).is_empty(), "nothing is kept any more");
+    let is_last = |task: &Task| matches!(task, Task::KeepLast(_));
+    assert!(bench.act(FileAction::Ended).iter().all(is_last), "no unsaved work is kept any more");
 }
 
 #[test]
@@ -304,20 +321,18 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     let mut bench = Bench::new();
     let before = bench.model.session.light.lighting.clone();
     let is_load = |task: &Task| matches!(task, Task::LoadLight(name) if name == "nowhere");
-    assert!(has(&bench.act(Edit::Light("nowhere".to_owned())), is_load));
+    assert!(has(&bench.act(Edit::Setting(SettingChange::Light("nowhere".to_owned()))), is_load));
     assert!(bench.end_frame(false).iter().all(|task| !is_load(task)), "it is being loaded");
     bench.act(Computed::Light("nowhere".to_owned(), Err(Failure::Input("a fault".to_owned()))));
     assert!(bench.model.session.light.loading.is_none());
     assert!(std::sync::Arc::ptr_eq(&before, &bench.model.session.light.lighting));
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("a fault; "));
     assert!(!has(&bench.end_frame(false), is_load), "it is not loaded again and again");
-    // Exports and the next start name the light that is shown.
+    // Exports name the light that is shown.
     assert_eq!(export_plan(&bench.model).light, Path::new(FIRST_LIGHT));
-    assert_eq!(bench.model.workspace.light, FIRST_LIGHT);
-    bench.act(Edit::Light("dome".to_owned()));
+    bench.act(Edit::Setting(SettingChange::Light("dome".to_owned())));
     bench.act(Computed::Light("dome".to_owned(), Ok(before)));
     assert_eq!(export_plan(&bench.model).light, Path::new("dome"));
-    assert_eq!(bench.model.workspace.light, "dome");
 }
 
 #[test]

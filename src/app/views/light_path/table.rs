@@ -1,6 +1,7 @@
 //! The steps of a path as rows of figures.
 
 use super::Reading;
+use crate::math::fixed;
 use crate::trace::ray::{Leaving, Step};
 use egui::{
     Align, Align2, Color32, FontId, Rect, Response, ScrollArea, Sense, StrokeKind, TextStyle, Ui, WidgetInfo,
@@ -273,9 +274,7 @@ fn where_to(reading: &Reading, Leaving { share, direction, again }: Leaving) -> 
 
 /// Writes an angle to a tenth of a degree, as cutters' gauges show it.
 fn degrees(angle: f64) -> String {
-    // The sum with zero turns a negative zero into a positive one.
-    let rounded = (angle * 10.0).round() / 10.0 + 0.0;
-    format!("{rounded:.1}°").replace('-', "−")
+    format!("{}°", fixed(angle, 1)).replace('-', "−")
 }
 
 fn percent(share: f64) -> String {

@@ -1,4 +1,5 @@
-//! Writes PLY, by ply-rs-bw: binary, little-endian, corners in f64.
+//! Writes PLY, by ply-rs-bw: binary, little-endian, corners in f64. Facets are written as triangles, because many programs
+//! read no others.
 
 use super::Faces;
 use glam::DVec3;
@@ -7,11 +8,7 @@ use ply_rs_bw::ply::{
 };
 use ply_rs_bw::writer::Writer;
 
-/// The most corners of a polygon: their number is a byte, as most readers expect. Polygons with more are written as
-/// triangles.
-const MOST_CORNERS: usize = 255;
-
-/// A row of the file: the position of a corner, or the corners of a polygon.
+/// A row of the file: the position of a corner, or the corners of a triangle.
 #[derive(Debug, Default)]
 struct Row {
     at: DVec3,
@@ -40,14 +37,11 @@ impl PropertyAccess for Row {
 /// Encodes faces as PLY, with a comment if there is one.
 pub(super) fn written(faces: &Faces<'_>, scale: f64, comment: Option<String>) -> std::io::Result<Vec<u8>> {
     let corner = |v: &DVec3| Row { at: *v * scale, corners: vec![] };
-    let polygon = |corners: &[u32]| Row {
+    let triangle = |corners: &[u32; 3]| Row {
         at: DVec3::ZERO,
         corners: corners.iter().map(|&v| i32::try_from(v).unwrap_or_default()).collect(),
     };
-    let polygons = faces.faces.iter().flat_map(|face| match face.corners.len() <= MOST_CORNERS {
-        true => vec![polygon(&face.corners)],
-        false => face.triangles.iter().map(|t| polygon(t)).collect(),
-    });
+    let triangles = faces.faces.iter().flat_map(|face| face.triangles.iter().map(triangle));
     let mut ply = Ply::<Row>::new();
     ply.header.encoding = Encoding::BinaryLittleEndian;
     ply.header.comments.push("mm, z up".to_owned());
@@ -61,7 +55,7 @@ pub(super) fn written(faces: &Faces<'_>, scale: f64, comment: Option<String>) ->
         ply.header.elements.add(element);
     }
     ply.payload.insert("vertex".to_owned(), faces.vertices.iter().map(corner).collect());
-    ply.payload.insert("face".to_owned(), polygons.collect());
+    ply.payload.insert("face".to_owned(), triangles.collect());
     let mut bytes = vec![];
     Writer::new().write_ply(&mut bytes, &mut ply)?;
     Ok(bytes)

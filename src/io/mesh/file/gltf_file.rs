@@ -2,15 +2,21 @@
 //! triangles.
 
 mod buffers;
+mod draco;
 mod images;
+mod meshopt;
+mod repair;
 mod scene;
 mod shape_only;
+mod uri;
 
 use super::parsed_mesh::ParsedMesh;
 use crate::io::file_error::Fault;
 use gltf::json::validation::Checked;
 use gltf::json::{Root, deserialize};
 use gltf::{Document, Semantic};
+use repair::{Repaired, repaired, with_views};
+use serde_json::Value;
 use shape_only::shape_alone;
 use std::path::Path;
 
@@ -20,54 +26,75 @@ const GLB_HEADER: usize = 12;
 /// The beginning of the message about a file that is no glTF.
 const UNREADABLE: &str = "this glTF 2.0 cannot be read: ";
 
-/// The extensions without which shapes would be read wrongly. A file can be read without any other.
-const NEEDED: [&str; 4] = [
-    "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression",
-    "KHR_mesh_quantization",
-    "EXT_mesh_gpu_instancing",
-];
+/// The extensions without which shapes would be read wrongly, and which are not read. A file can be read without any other.
+const NEEDED: [&str; 2] = ["EXT_mesh_gpu_instancing", "KHR_meshopt_compression"];
+
+/// The extensions of shapes that are read.
+const READ: [&str; 4] = [repair::DRACO, meshopt::NAME, "KHR_mesh_quantization", scene::HIDDEN];
 
 pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<ParsedMesh, Fault> {
     let (json, blob) = split(bytes)?;
     let (document, mut warnings) = document(&json)?;
     let data = buffers::load(&document, blob, folder)?;
-    let mut mesh = scene::gather(&document, &data)?;
+    let (mut mesh, name) = scene::gather(&document, &data)?;
     warnings.append(&mut mesh.warnings);
     warnings.extend(images::warning(&document, &data, folder));
-    let name = document
-        .default_scene()
-        .or_else(|| document.scenes().next())
-        .and_then(|s| s.name().map(str::to_owned));
     Ok(ParsedMesh { warnings, name: name.filter(|name| !name.starts_with("Scene")), ..mesh })
 }
 
-/// Parses the JSON; returns its document and warnings. Where something besides the shape is broken, such as a texture, the
-/// shape is read without it.
+/// Parses the JSON; returns its document and warnings. Where it departs from the standard it is repaired, and where something
+/// besides the shape is broken, such as a texture, the shape is read without it.
 fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
     let fault = match parsed(json) {
         Ok(read) => return Ok(read),
         Err(fault) => fault,
     };
+    let Some(Repaired { mut root, warnings: left_out }) = repaired(json) else { return Err(fault) };
+    check_version(&root)?;
+    with_views(&mut root);
+    let with =
+        |(document, warnings): (Document, Vec<String>)| (document, [left_out.clone(), warnings].concat());
+    if let Some(read) = serde_json::to_vec(&root).ok().and_then(|json| parsed(&json).ok()) {
+        return Ok(with(read));
+    }
     for (keeps_materials, lost) in
         [(true, "textures and what else is"), (false, "materials, textures and what else is")]
     {
-        let alone = shape_alone(json, keeps_materials);
+        let alone = shape_alone(&root, keeps_materials);
         if let Some((document, mut warnings)) = alone.and_then(|json| parsed(&json).ok()) {
             let place = fault.line.map(|line| format!("line {line}: ")).unwrap_or_default();
             let broken = fault.problem.strip_prefix(UNREADABLE).unwrap_or(&fault.problem);
             let warning =
                 format!("{lost} beside the shape are left out, because the file is broken: {place}{broken}");
             warnings.insert(0, warning);
-            return Ok((document, warnings));
+            return Ok(with((document, warnings)));
         }
     }
     Err(fault)
 }
 
+/// Refuses files of another version of glTF than 2.
+fn check_version(root: &Value) -> Result<(), Fault> {
+    let version = root.pointer("/asset/version").map(|version| match version {
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    });
+    match version.filter(|version| version.split('.').next() != Some("2")) {
+        Some(version) => Err(other_version(&version)),
+        None => Ok(()),
+    }
+}
+
+fn other_version(version: &str) -> Fault {
+    Fault::part("asset", format!("this is glTF {version:.20}; 2.0 is read; save the file as glTF 2.0"))
+}
+
 fn parsed(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
     let mut root: Root = deserialize::from_slice(json)
         .map_err(|error| Fault::line(error.line(), format!("{UNREADABLE}{error}")))?;
+    if !root.asset.version.starts_with("2") {
+        return Err(other_version(&root.asset.version));
+    }
     let mut warnings = extensions(&mut root)?;
     warnings.extend(positions(&mut root)?);
     let document = Document::from_json(root).map_err(|error| Fault::whole(message(error)))?;
@@ -77,8 +104,10 @@ fn parsed(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
 /// Splits a file into its JSON and, of a binary file, the bytes that come with it.
 fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), Fault> {
     if !bytes.starts_with(b"glTF") {
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        return Ok((text.to_vec(), None));
+        return Ok((bytes.to_vec(), None));
+    }
+    if bytes.get(4..8).is_some_and(|version| version != 2_u32.to_le_bytes()) {
+        return Err(other_version(&format!("{}.0", u32::from(bytes[4]))));
     }
     // The crate subtracts the header's length from this length without checking it.
     let length = bytes.get(8..GLB_HEADER).and_then(|b| b.try_into().ok()).map_or(0, u32::from_le_bytes);
@@ -114,30 +143,39 @@ fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
             let message = format!("POSITION refers to accessor {}, and there are {count}", index.value());
             return Err(Fault::part(format!("mesh {mesh}"), message));
         };
-        unbounded += u32::from(accessor.min.is_none() || accessor.max.is_none());
-        for bound in [&mut accessor.min, &mut accessor.max] {
-            bound.get_or_insert_with(|| serde_json::json!([0.0, 0.0, 0.0]));
+        let is_missing = |bound: &Option<Value>| {
+            let numbers = bound.as_ref().and_then(Value::as_array);
+            numbers.is_none_or(|list| list.len() != 3 || !list.iter().all(Value::is_number))
+        };
+        let bounds = [&mut accessor.min, &mut accessor.max];
+        unbounded += u32::from(bounds.iter().any(|bound| is_missing(bound)));
+        for bound in bounds.into_iter().filter(|bound| is_missing(bound)) {
+            *bound = Some(serde_json::json!([0.0, 0.0, 0.0]));
         }
     }
     Ok((unbounded > 0).then(|| format!("the bounds of places are missing {unbounded} times")))
 }
 
-/// Checks the extensions of a file. Those that change shapes are faults where the file needs them and warnings where it does
-/// not. The list of needed extensions is emptied, since the crate would refuse others too, such as those of materials.
+/// Checks the extensions of a file. Those that change shapes and are not read are faults where the file needs them and
+/// warnings where it does not. The list of needed extensions is emptied, since the crate would refuse others too, such as
+/// those of materials.
 fn extensions(root: &mut Root) -> Result<Vec<String>, Fault> {
-    if let Some(name) = root.extensions_required.iter().find(|name| NEEDED.contains(&name.as_str())) {
-        let message = format!("the shape is written with {name}, which is not read; export it without");
+    let is_needed = |name: &&String| NEEDED.contains(&name.as_str());
+    if let Some(name) = root.extensions_required.iter().find(is_needed) {
+        let message =
+            format!("the shape is written with {name}, which is not read; save the file without it");
         return Err(Fault::part("extensionsRequired", message));
     }
     let shapeless =
         |name: &String| ["KHR_materials_", "KHR_texture_", "KHR_lights_"].iter().any(|p| name.starts_with(p));
-    let strange = root.extensions_required.iter().filter(|name| !shapeless(name));
+    let strange =
+        root.extensions_required.iter().filter(|name| !shapeless(name) && !READ.contains(&name.as_str()));
     let mut warnings: Vec<String> = strange
         .map(|name| {
             format!("the file requires {name}, which this program does not support; it is read without that")
         })
         .collect();
-    let optional = root.extensions_used.iter().filter(|name| NEEDED.contains(&name.as_str()));
+    let optional = root.extensions_used.iter().filter(is_needed);
     warnings.extend(optional.map(|name| format!("{name} is not read; a part of the shape may be missing")));
     root.extensions_required.clear();
     Ok(warnings)

@@ -1,7 +1,7 @@
 //! Hands text to a crate's parser line by line, so that errors can name the line in which they arose.
 
 use std::cell::Cell;
-use std::io::{BufRead, Read, Seek, SeekFrom};
+use std::io::{BufRead, Read};
 use std::rc::Rc;
 
 /// The longest line that is handed on, in bytes: a face of tens of thousands of corners.
@@ -17,10 +17,10 @@ pub(super) struct Lines<'a, F> {
 }
 
 impl<'a, F: FnMut(&[u8], &mut Vec<u8>)> Lines<'a, F> {
-    /// Makes the reader, and a cell with the number, from 1, of the line that was handed on last.
-    pub fn new(text: &'a [u8], change: F) -> (Self, Rc<Cell<usize>>) {
-        let line = Rc::new(Cell::new(0));
-        (Self { rest: text, current: vec![], used: 0, line: line.clone(), change }, line)
+    /// Makes the reader. `line` is set to the number, from 1, of the line that was handed on last.
+    pub fn new(text: &'a [u8], line: Rc<Cell<usize>>, change: F) -> Self {
+        line.set(0);
+        Self { rest: text, current: vec![], used: 0, line, change }
     }
 
     fn next_line(&mut self) {
@@ -51,37 +51,5 @@ impl<F: FnMut(&[u8], &mut Vec<u8>)> BufRead for Lines<'_, F> {
 
     fn consume(&mut self, count: usize) {
         self.used += count;
-    }
-}
-
-/// A reader that begins with a line of its own and can return to it, for a parser that looks at the first line twice.
-pub(super) struct Rewound<R> {
-    first: &'static [u8],
-    left: &'static [u8],
-    rest: R,
-}
-
-impl<R> Rewound<R> {
-    /// Makes a reader of `first` and then of `rest`.
-    pub fn new(first: &'static [u8], rest: R) -> Self {
-        Self { first, left: first, rest }
-    }
-}
-
-impl<R: Read> Read for Rewound<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        if self.left.is_empty() { self.rest.read(buffer) } else { self.left.read(buffer) }
-    }
-}
-
-impl<R> Seek for Rewound<R> {
-    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
-        match to {
-            SeekFrom::Start(0) => {
-                self.left = self.first;
-                Ok(0)
-            }
-            _ => Err(std::io::ErrorKind::Unsupported.into()),
-        }
     }
 }

@@ -8,9 +8,11 @@ mod gltf_file;
 mod hint;
 mod limits;
 mod lines;
+mod number;
 mod obj_file;
 mod parsed_mesh;
 mod ply_file;
+mod polygons;
 mod sniff;
 mod statement;
 mod stl_file;
@@ -18,7 +20,9 @@ mod stl_file;
 #[cfg(test)]
 mod tests;
 
+use crate::io::decoding::in_utf8;
 use crate::io::file_error::{Fault, FileError};
+use crate::io::foreign;
 use crate::math::Surface;
 use glam::DVec3;
 use std::path::Path;
@@ -45,6 +49,8 @@ pub struct MeshFile {
     pub hint: Option<MaterialHint>,
     /// The statement about the stone, where this program wrote the file.
     pub statement: Option<Statement>,
+    /// Notes on what of the file was read, where it has more.
+    pub notes: Vec<String>,
     /// Warnings about unusual content of the file.
     pub warnings: Vec<String>,
     /// The name that the file gives itself, or else the file's own name without its ending.
@@ -83,16 +89,20 @@ fn parse_by(
     let binary =
         (is_named && bytes.len() >= STL_START && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
     let Some(format) = looks_like(&bytes).or(binary) else {
-        return Err(FileError::new(label, "this is not a mesh; glTF, OBJ, STL or PLY is expected"));
+        let named = foreign::refusal(&bytes);
+        let message =
+            named.unwrap_or_else(|| "this is not a mesh; glTF, OBJ, STL or PLY is expected".to_owned());
+        return Err(FileError::new(label, message));
     };
     let read = match format {
-        MeshFormat::Glb | MeshFormat::Gltf => gltf_file::read(&bytes, folder),
-        MeshFormat::Obj => read_obj(&bytes),
+        MeshFormat::Glb => gltf_file::read(&bytes, folder),
+        MeshFormat::Gltf => gltf_file::read(&in_utf8(&bytes), folder),
+        MeshFormat::Obj => read_obj(&in_utf8(&bytes)),
         MeshFormat::StlBinary => stl_file::read_binary(bytes),
-        MeshFormat::StlText => stl_file::read_text(&bytes),
-        MeshFormat::Ply => ply_file::read(&bytes),
+        MeshFormat::StlText => stl_file::read_text(&in_utf8(&bytes)),
+        MeshFormat::Ply => ply_file::read(&in_utf8(&bytes)),
     };
-    let ParsedMesh { surface, normals, hint, mut warnings, name, said } =
+    let ParsedMesh { surface, normals, hint, notes, mut warnings, name, said } =
         read.and_then(limits::checked).map_err(|fault| fault.in_file(label))?;
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let printable = |name: &String| crate::cut::is_printable(name);
@@ -106,5 +116,5 @@ fn parse_by(
             None
         }
     });
-    Ok(MeshFile { format, surface, normals, hint, statement, warnings, name })
+    Ok(MeshFile { format, surface, normals, hint, statement, notes, warnings, name })
 }

@@ -4,62 +4,98 @@
 
 use super::limits;
 use super::lines::Lines;
+use super::number::NumberReader;
 use super::parsed_mesh::ParsedMesh;
+use super::polygons::Polygons;
 use super::statement::Statement;
+use crate::io::decoding::with_line_feeds;
 use crate::io::file_error::Fault;
-use crate::math::Surface;
 use glam::DVec3;
+use std::cell::Cell;
+use std::rc::Rc;
 use tobj::{LoadError, LoadOptions, Model};
 
 /// The names that tobj gives to objects without a name.
 const NAMELESS: [&str; 2] = ["unnamed_object", "default"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
-    read_by(bytes, Odd::default())
+    read_by(bytes, false)
 }
 
 /// Reads a mesh with its normals, or without them where they cannot be read.
 pub(super) fn read_shaded(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
-    let shaded = read_by(bytes, Odd { keeps_normals: true, ..Odd::default() });
-    shaded.or_else(|_| read(bytes))
+    read_by(bytes, true).or_else(|_| read(bytes))
 }
 
-fn read_by(bytes: &[u8], mut odd: Odd) -> Result<ParsedMesh, Fault> {
+fn read_by(bytes: &[u8], keeps_normals: bool) -> Result<ParsedMesh, Fault> {
+    let bytes = &*with_line_feeds(bytes);
     let corners = bytes.split(|b| *b == b'\n').filter(|l| l.trim_ascii_start().starts_with(b"v ")).count();
     limits::count(corners, 0)?;
-    let (mut lines, line) = Lines::new(bytes, |line, out: &mut Vec<u8>| odd.hand_on(line, out));
-    let options =
-        LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
+    let line = Rc::new(Cell::new(0));
+    let mut odd = Odd { keeps_normals, line: line.clone(), ..Odd::default() };
+    let mut lines = Lines::new(bytes, line.clone(), |line, out: &mut Vec<u8>| odd.hand_on(line, out));
+    let options = LoadOptions { single_index: true, ..LoadOptions::default() };
     let loaded = tobj::load_obj_buf(&mut lines, &options, |_| Err(LoadError::OpenFileFailed));
-    let models = loaded.map_err(|error| fault(&error, line.get(), bytes))?.0;
     drop(lines);
-    let (mut surface, mut normals) = (Surface::default(), vec![]);
+    if let Some(fault) = odd.fault.take() {
+        return Err(fault);
+    }
+    let models = loaded.map_err(|error| fault(&error, line.get(), bytes))?.0;
+    let (mut polygons, mut normals) = (Polygons::default(), vec![]);
     for model in models {
-        limits::count(surface.vertices.len() + model.mesh.positions.len() / 3, surface.triangles.len())?;
         normals.extend(model.mesh.normals.as_chunks().0.iter().map(|&n: &[f64; 3]| DVec3::from(n)));
-        surface.append(part(model));
-        normals.resize(surface.vertices.len(), DVec3::ZERO);
+        gather(model, &mut polygons)?;
+        normals.resize(polygons.surface.vertices.len(), DVec3::ZERO);
     }
     let (name, said) = (odd.object.take(), odd.said.take());
-    Ok(ParsedMesh { surface, normals, warnings: odd.warnings(), name, said, hint: None })
+    let left_out = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what} left out"));
+    let curves = left_out(odd.curves, "curved surfaces, which no stone's facet is, are");
+    polygons.short += odd.short;
+    let warnings = [curves, polygons.warning("faces"), odd.numbers.warning()];
+    let warnings = warnings.into_iter().flatten().collect();
+    Ok(ParsedMesh { surface: polygons.surface, normals, warnings, name, said, ..ParsedMesh::default() })
 }
 
-fn part(model: Model) -> Surface {
-    let vertices = model.mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
-    let triangles = model.mesh.indices.as_chunks().0.to_vec();
-    let name = if NAMELESS.contains(&model.name.as_str()) { String::new() } else { model.name };
-    Surface { names: vec![name], ..Surface::new(vertices, triangles) }
+/// Adds the faces of an object or a group as a group with its name.
+fn gather(model: Model, polygons: &mut Polygons) -> Result<(), Fault> {
+    let first = polygons.surface.vertices.len() as u32;
+    let vertices = model.mesh.positions.chunks_exact(3).map(DVec3::from_slice);
+    polygons.surface.vertices.extend(vertices);
+    polygons.surface.names.push(if NAMELESS.contains(&model.name.as_str()) {
+        String::new()
+    } else {
+        model.name
+    });
+    let corners: Vec<u32> = model.mesh.indices.iter().map(|corner| first + corner).collect();
+    let mut rest = corners.as_slice();
+    // A mesh of triangles alone lists no numbers of corners.
+    let numbers = model.mesh.face_arities.iter().map(|&count| count as usize).chain(std::iter::repeat(3));
+    for count in numbers {
+        if rest.is_empty() {
+            break;
+        }
+        let (face, later) = rest.split_at(count.min(rest.len()));
+        polygons.add(face);
+        limits::count(polygons.surface.vertices.len(), polygons.surface.triangles.len())?;
+        rest = later;
+    }
+    Ok(())
 }
 
 /// A filter of lines for tobj, which counts the unusual lines that it keeps back.
 #[derive(Default)]
 struct Odd {
     keeps_normals: bool,
+    /// The number of the line that is handed on.
+    line: Rc<Cell<usize>>,
     continues: bool,
     curves: usize,
     short: usize,
+    numbers: NumberReader,
     object: Option<String>,
     said: Option<String>,
+    /// The first fault that tobj would not name.
+    fault: Option<Fault>,
 }
 
 impl Odd {
@@ -73,29 +109,36 @@ impl Odd {
         let (text, more) = text.strip_suffix('\\').map_or((text, false), |text| (text, true));
         let continued = std::mem::replace(&mut self.continues, more);
         let (key, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-        match key {
+        match key.to_ascii_lowercase().as_str() {
             _ if continued => out.extend(self.corners(text).as_bytes()),
-            "v" => {
-                // Only three numbers are passed on: a weight would be 1, and a colour is not used.
-                out.extend(b"v ");
-                out.extend(rest.split_whitespace().take(3).collect::<Vec<_>>().join(" ").as_bytes());
-            }
-            "f" if rest.split_whitespace().count() < 3 && !more => self.short += 1,
-            "f" => {
+            "v" => self.position(rest, out),
+            "f" | "fo" if rest.split_whitespace().count() < 3 && !more => self.short += 1,
+            "f" | "fo" => {
                 out.extend(b"f ");
                 out.extend(self.corners(rest).as_bytes());
             }
             "vn" if self.keeps_normals => out.extend(text.as_bytes()),
-            "o" | "g" => {
-                if key == "o" && self.object.is_none() {
+            word @ ("o" | "g") => {
+                if word == "o" && self.object.is_none() {
                     self.object = Some(rest.trim().to_owned());
                 }
-                out.extend(text.as_bytes());
+                out.extend(format!("{word} {rest}").as_bytes());
             }
             "curv" | "curv2" | "surf" => self.curves += 1,
             _ => {}
         }
         out.push(if more { b' ' } else { b'\n' });
+    }
+
+    /// Hands on the position of a corner: only its three numbers, because a weight would be 1, and a colour is not used.
+    fn position(&mut self, rest: &str, out: &mut Vec<u8>) {
+        out.extend(b"v");
+        for text in rest.split_whitespace().take(3) {
+            match text.contains(',').then(|| self.numbers.read(text, self.line.get())).transpose() {
+                Ok(_) => out.extend(format!(" {}", text.replace(',', ".")).as_bytes()),
+                Err(fault) => drop(self.fault.get_or_insert(fault)),
+            }
+        }
     }
 
     /// Returns the corners of a face without their texture coordinates, and without their normals where these are not kept.
@@ -110,15 +153,6 @@ impl Odd {
         };
         text.split_whitespace().map(corner).collect()
     }
-
-    fn warnings(&self) -> Vec<String> {
-        let left_out = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what} left out"));
-        let all = [
-            left_out(self.curves, "curved surfaces, which no stone's facet is, are"),
-            left_out(self.short, "faces of fewer than three corners are"),
-        ];
-        all.into_iter().flatten().collect()
-    }
 }
 
 fn fault(error: &LoadError, line: usize, bytes: &[u8]) -> Fault {
@@ -127,26 +161,38 @@ fn fault(error: &LoadError, line: usize, bytes: &[u8]) -> Fault {
         LoadError::FaceParseError => {
             Fault::line(line, "three or more numbers of corners, from 1, are expected after `f`")
         }
-        LoadError::FaceVertexOutOfBounds => match first_out_of_bounds(bytes) {
-            Some((line, corner, count)) => {
-                Fault::line(line, format!("the face refers to corner {corner}, and the file has {count}"))
-            }
-            None => Fault::line(line, "a face above refers to a corner that is not there"),
-        },
+        LoadError::FaceVertexOutOfBounds => first_out_of_bounds(bytes)
+            .unwrap_or_else(|| Fault::line(line, "a face above refers to a corner that is not there")),
         other => Fault::line(line, format!("this cannot be read: {other}")),
     }
 }
 
-/// Returns the first face that refers to a missing corner: its line, that corner, and the number of corners. tobj
-/// finds such a face only when an object ends.
-fn first_out_of_bounds(bytes: &[u8]) -> Option<(usize, i64, i64)> {
+/// Returns the fault of the first face that refers to a missing corner. tobj finds such a face only when an object ends.
+fn first_out_of_bounds(bytes: &[u8]) -> Option<Fault> {
     let text = String::from_utf8_lossy(bytes);
-    let total = text.lines().filter(|line| line.trim_start().starts_with("v ")).count() as i64;
-    let lines = text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("f "));
-    let mut numbers = lines.flat_map(|(number, line)| {
+    let word = |line: &str| line.split_whitespace().next().unwrap_or_default().to_ascii_lowercase();
+    let total = text.lines().filter(|line| word(line) == "v").count() as i64;
+    let mut above = 0;
+    for (number, line) in (1..).zip(text.lines()) {
+        above += i64::from(word(line) == "v");
+        if !matches!(word(line).as_str(), "f" | "fo") {
+            continue;
+        }
         let corners =
             line.split_whitespace().skip(1).filter_map(|c| c.split('/').next()?.parse::<i64>().ok());
-        corners.map(move |corner| (number + 1, corner, total))
-    });
-    numbers.find(|(_, corner, total)| corner > total)
+        for corner in corners {
+            let message = match corner {
+                0 => "the face refers to corner 0; numbers of corners count from 1".to_owned(),
+                _ if corner > total => {
+                    format!("the face refers to corner {corner}, and the file has {total}")
+                }
+                _ if -corner > above => {
+                    format!("the face refers to corner {corner}, and {above} are above it")
+                }
+                _ => continue,
+            };
+            return Some(Fault::line(number, message));
+        }
+    }
+    None
 }

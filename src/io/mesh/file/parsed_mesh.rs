@@ -11,6 +11,7 @@ pub(super) struct ParsedMesh {
     /// The normals of the surface's corners, 0 where the file gives none; empty where it gives none at all.
     pub normals: Vec<DVec3>,
     pub hint: Option<MaterialHint>,
+    pub notes: Vec<String>,
     pub warnings: Vec<String>,
     pub name: Option<String>,
     /// The text of the statement that this program writes into meshes.

@@ -1,19 +1,33 @@
-//! Reads PLY, text and binary, by ply-rs-bw.
+//! Reads PLY, text and binary, by ply-rs-bw. Text is brought into the crate's form line by line.
 
 use super::limits::{self, MAX_VERTICES};
+use super::lines::Lines;
+use super::number::NumberReader;
 use super::parsed_mesh::ParsedMesh;
+use super::polygons::Polygons;
 use super::statement::Statement;
+use crate::io::decoding::with_line_feeds;
 use crate::io::file_error::Fault;
-use crate::math::Surface;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult};
-use std::io::Read as _;
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
+use std::cell::{Cell, RefCell};
+use std::io::BufRead;
+use std::rc::Rc;
 
 /// The size of the longest header that is read, in bytes: hundreds of comments.
 const MAX_HEADER: usize = 1 << 20;
 
-/// The used values of a row of a file: the position of a corner, or the corners of a face.
+/// The line that ends a header.
+const END: &[u8] = b"end_header";
+
+/// The names of the list of a face's or a strip's corners.
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// The words that begin the lines of a header. Lines of other words are left out.
+const WORDS: [&str; 7] = ["ply", "format", "comment", "obj_info", "element", "property", "end_header"];
+
+/// The used values of a row of a file: the position of a corner, or the corners of a face or a strip.
 #[derive(Default)]
 struct Row {
     at: DVec3,
@@ -30,7 +44,7 @@ impl PropertyAccess for Row {
             "x" => &mut self.at.x,
             "y" => &mut self.at.y,
             "z" => &mut self.at.z,
-            "vertex_indices" | "vertex_index" => return self.set_corners(value),
+            name if CORNERS.contains(&name) => return self.set_corners(value),
             _ => return PropertyAccessResult::Ignored,
         };
         match number(&value) {
@@ -43,6 +57,8 @@ impl PropertyAccess for Row {
 
 impl Row {
     fn set_corners(&mut self, value: Property) -> PropertyAccessResult {
+        // A number that is not whole becomes one that no corner has.
+        let whole = |x: f64| if x.fract() == 0.0 { x as i64 } else { i64::MIN };
         self.corners = match value {
             Property::ListChar(list) => list.into_iter().map(i64::from).collect(),
             Property::ListUChar(list) => list.into_iter().map(i64::from).collect(),
@@ -50,6 +66,8 @@ impl Row {
             Property::ListUShort(list) => list.into_iter().map(i64::from).collect(),
             Property::ListInt(list) => list.into_iter().map(i64::from).collect(),
             Property::ListUInt(list) => list.into_iter().map(i64::from).collect(),
+            Property::ListFloat(list) => list.into_iter().map(|x| whole(x.into())).collect(),
+            Property::ListDouble(list) => list.into_iter().map(whole).collect(),
             _ => return PropertyAccessResult::UnsupportedType,
         };
         PropertyAccessResult::Set
@@ -71,30 +89,133 @@ fn number(value: &Property) -> Option<f64> {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
-    let end = b"end_header";
-    let beginning = &bytes[..bytes.len().min(MAX_HEADER)];
-    let Some(header) = beginning.windows(end.len()).position(|w| w == end) else {
-        return Err("the header has no end; a line `end_header` is expected".into());
-    };
-    // Comments may be in any encoding.
-    let readable: Vec<u8> = bytes[..header].iter().map(|b| if b.is_ascii() { *b } else { b'?' }).collect();
+    let end = header_end(bytes).ok_or("the header has no end; a line `end_header` is expected")?;
+    let head = with_line_feeds(&bytes[..end]);
     let parser = Parser::<Row>::new();
-    let mut reader = Reader::new(readable.as_slice().chain(&bytes[header..]));
+    let mut reader = Reader::new(Lines::new(&head, Rc::default(), tidy_header));
     let header = parser.read_header(&mut reader).map_err(fault)?;
     check(&header)?;
-    let mut surface = Surface::new(vec![], vec![]);
-    let mut warnings = vec![];
-    for (name, element) in &header.elements {
-        let rows = parser.read_payload_for_element(&mut reader, element, &header).map_err(fault)?;
-        match name.as_str() {
-            "vertex" => surface.vertices = rows.into_iter().map(|row| row.at).collect(),
-            "face" => faces(rows, &mut surface)?,
-            "tristrips" => warnings.push("strips of triangles are not read; save faces".to_owned()),
-            _ => {}
+    let (rows, warning) = match header.encoding {
+        Encoding::Ascii => text_rows(
+            &parser,
+            &header,
+            &with_line_feeds(&bytes[end..]),
+            head.split(|b| *b == b'\n').count() - 1,
+        )?,
+        _ => (rows(&parser, &header, &mut Reader::new(&bytes[end..])).map_err(fault)?, None),
+    };
+    let mut polygons = Polygons::default();
+    for (name, rows) in rows {
+        match name {
+            "vertex" => polygons = Polygons::of(rows.into_iter().map(|row| row.at).collect(), String::new()),
+            "face" => faces(&rows, &mut polygons)?,
+            _ => strips(&rows, &mut polygons)?,
         }
     }
     let said = header.comments.iter().find(|comment| Statement::is_meant(comment)).cloned();
-    Ok(ParsedMesh { surface, warnings, said, ..ParsedMesh::default() })
+    let warnings = [polygons.warning("faces"), warning].into_iter().flatten().collect();
+    Ok(ParsedMesh { surface: polygons.surface, warnings, said, ..ParsedMesh::default() })
+}
+
+/// Returns the place behind the line that ends the header.
+fn header_end(bytes: &[u8]) -> Option<usize> {
+    let beginning = &bytes[..bytes.len().min(MAX_HEADER)];
+    let is_line = |at: usize| {
+        let before = beginning[..at].iter().rfind(|byte| !matches!(byte, b' ' | b'\t'));
+        let behind = beginning[at + END.len()..].iter().find(|byte| !matches!(byte, b' ' | b'\t'));
+        matches!(before, Some(b'\n' | b'\r')) && matches!(behind, None | Some(b'\n' | b'\r'))
+    };
+    let at = beginning.windows(END.len()).enumerate().find(|(at, word)| *word == END && is_line(*at))?.0;
+    let mut end = at + END.len();
+    while matches!(bytes.get(end), Some(b' ' | b'\t')) {
+        end += 1;
+    }
+    // Behind a carriage return, a binary file may begin with the byte of a line feed; its first line shows which it is.
+    let is_pair =
+        bytes.iter().position(|byte| *byte == b'\r').is_some_and(|at| bytes.get(at + 1) == Some(&b'\n'));
+    Some((end + if bytes.get(end) == Some(&b'\r') && is_pair { 2 } else { 1 }).min(bytes.len()))
+}
+
+/// Brings a line of a header into the form that the crate takes. Lines stay lines, so that their numbers do.
+fn tidy_header(line: &[u8], out: &mut Vec<u8>) {
+    // Comments may be in any encoding.
+    let line: String =
+        line.iter().map(|byte| if byte.is_ascii() { char::from(*byte) } else { '?' }).collect();
+    let is_known = line.split_whitespace().next().is_some_and(|word| WORDS.contains(&word));
+    out.extend(if is_known { line.trim() } else { "comment" }.as_bytes());
+    out.push(b'\n');
+}
+
+/// The rows of the elements that are read.
+type Rows<'h> = Vec<(&'h str, Vec<Row>)>;
+
+/// Reads the rows of all elements in their order, and returns those of corners, faces and strips, the corners first.
+fn rows<'h, R: BufRead>(
+    parser: &Parser<Row>,
+    header: &'h Header,
+    reader: &mut Reader<R>,
+) -> Result<Rows<'h>, ParseError> {
+    let mut all: Rows<'_> = vec![];
+    for (name, element) in &header.elements {
+        let rows = parser.read_payload_for_element(reader, element, header)?;
+        if matches!(name.as_str(), "vertex" | "face" | "tristrips") {
+            all.push((name, rows));
+        }
+    }
+    all.sort_by_key(|(name, _)| *name != "vertex");
+    Ok(all)
+}
+
+/// Reads the rows of a text, whose header has `above` lines, and a warning about its numbers.
+fn text_rows<'h>(
+    parser: &Parser<Row>,
+    header: &'h Header,
+    text: &[u8],
+    above: usize,
+) -> Result<(Rows<'h>, Option<String>), Fault> {
+    let line = Rc::new(Cell::new(0));
+    let state = RefCell::new((NumberReader::default(), None::<Fault>));
+    let change = |text: &[u8], out: &mut Vec<u8>| {
+        let (numbers, broken) = &mut *state.borrow_mut();
+        match tidy(&String::from_utf8_lossy(text), numbers, above + line.get()) {
+            // Blank lines are left out.
+            Ok(text) if text.trim().is_empty() => {}
+            Ok(text) => out.extend((text + "\n").bytes()),
+            Err(fault) => drop(broken.get_or_insert(fault)),
+        }
+    };
+    let found = rows(parser, header, &mut Reader::new(Lines::new(text, line.clone(), change)));
+    let (numbers, broken) = state.into_inner();
+    if let Some(fault) = broken {
+        return Err(fault);
+    }
+    let found = found.map_err(|error| Fault { line: Some(above + line.get()), ..fault(error) })?;
+    Ok((found, numbers.warning()))
+}
+
+/// Brings a row of a text into the form that the crate takes, whose numbers have digits on both sides of a decimal point and
+/// are finite.
+fn tidy(row: &str, numbers: &mut NumberReader, line: usize) -> Result<String, Fault> {
+    let is_plain = |word: &str| {
+        let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+        let is_known = |c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | 'e' | 'E');
+        digit(word.trim_start_matches(['-', '+']).chars().next())
+            && digit(word.chars().last())
+            && word.chars().all(is_known)
+            && !word.contains(".e")
+    };
+    let mut tidied = String::with_capacity(row.len());
+    for word in row.split_whitespace() {
+        if is_plain(word) {
+            tidied += word;
+        } else {
+            let number = numbers.read(word, line)?;
+            // Too large for any number: the position is then not finite, as the file says.
+            tidied += &if number.is_finite() { format!("{number}") } else { "9e999".to_owned() };
+        }
+        tidied.push(' ');
+    }
+    Ok(tidied)
 }
 
 /// Checks that the counts in a header are of a sane size, before anything is read by them, and that it has corners and
@@ -110,32 +231,63 @@ fn check(header: &Header) -> Result<(), Fault> {
             return Err(Fault::part(format!("element {name}"), message));
         }
     }
-    let lacks = |element: &str, names: &[&str]| {
-        let there =
-            header.elements.get(element).is_some_and(|e| names.iter().any(|n| e.properties.contains_key(*n)));
-        (!there).then(|| Fault::part("header", format!("`{}` of element `{element}` is expected", names[0])))
+    let expected = |name: &str, element: &str| {
+        Err(Fault::part("header", format!("`{name}` of element `{element}` is expected")))
     };
-    let coordinates = ["x", "y", "z"].iter().find_map(|name| lacks("vertex", &[name]));
-    let missing = coordinates.or_else(|| lacks("face", &["vertex_indices", "vertex_index"]));
-    missing.map_or(Ok(()), Err)
+    let has = |element: Option<&ElementDef>, names: &[&str]| {
+        element.is_some_and(|e| names.iter().any(|name| e.properties.contains_key(*name)))
+    };
+    let element = |name: &str| header.elements.get(name);
+    if let Some(axis) = ["x", "y", "z"].iter().find(|axis| !has(element("vertex"), &[axis])) {
+        return expected(axis, "vertex");
+    }
+    let parts = ["face", "tristrips"].map(element);
+    if parts.iter().flatten().all(|part| part.count == 0) {
+        return Err("this is a cloud of points without faces; save a closed surface of faces".into());
+    }
+    if parts.iter().any(|part| has(*part, &CORNERS)) { Ok(()) } else { expected(CORNERS[0], "face") }
 }
 
-fn faces(rows: Vec<Row>, surface: &mut Surface) -> Result<(), Fault> {
+fn faces(rows: &[Row], polygons: &mut Polygons) -> Result<(), Fault> {
     for (number, row) in (1..).zip(rows) {
-        let corner = |&n: &i64| {
-            u32::try_from(n).map_err(|_| {
-                let message = format!("it refers to corner {n}; a number from 0 is expected");
-                Fault::part(format!("face {number}"), message)
-            })
-        };
-        let corners = row.corners.iter().map(corner).collect::<Result<Vec<u32>, _>>()?;
-        for pair in corners.get(1..).unwrap_or_default().windows(2) {
-            surface.triangles.push([corners[0], pair[0], pair[1]]);
-            surface.groups.push(0);
-        }
-        limits::count(0, surface.triangles.len())?;
+        let corners = corners(&row.corners, polygons).map_err(|fault| part("face", number, &fault))?;
+        polygons.add(&corners);
+        limits::count(0, polygons.surface.triangles.len())?;
     }
     Ok(())
+}
+
+/// Adds strips of triangles, each of which takes its first two corners from the one before. -1 begins a new strip.
+fn strips(rows: &[Row], polygons: &mut Polygons) -> Result<(), Fault> {
+    for (number, row) in (1..).zip(rows) {
+        for strip in row.corners.split(|corner| *corner == -1) {
+            let corners = corners(strip, polygons).map_err(|fault| part("strip", number, &fault))?;
+            for (place, window) in corners.windows(3).enumerate() {
+                let (a, b) = if place % 2 == 0 { (0, 1) } else { (1, 0) };
+                polygons.add(&[window[a], window[b], window[2]]);
+            }
+            limits::count(0, polygons.surface.triangles.len())?;
+        }
+    }
+    Ok(())
+}
+
+/// Returns the corners of a face or a strip, all of which exist.
+fn corners(numbers: &[i64], polygons: &Polygons) -> Result<Vec<u32>, String> {
+    let known = polygons.surface.vertices.len();
+    let corner = |&number: &i64| match u32::try_from(number) {
+        Ok(corner) if (corner as usize) < known => Ok(corner),
+        Ok(_) => Err(format!("it refers to corner {number}, counted from 0, and there are {known}")),
+        Err(_) if number == i64::MIN => {
+            Err("it refers to a corner by a number that is not whole; whole numbers are expected".to_owned())
+        }
+        Err(_) => Err(format!("it refers to corner {number}; a number from 0 is expected")),
+    };
+    numbers.iter().map(corner).collect()
+}
+
+fn part(what: &str, number: usize, problem: &str) -> Fault {
+    Fault::part(format!("{what} {number}"), problem)
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "it maps an error")]

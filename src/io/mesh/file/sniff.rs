@@ -1,5 +1,8 @@
 //! Recognises the mesh format of a file by its first bytes.
 
+use crate::io::decoding::{in_utf8, with_line_feeds};
+use crate::io::numbers::Token;
+
 /// The mesh formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeshFormat {
@@ -29,26 +32,32 @@ pub(super) const STL_TRIANGLE: u64 = 50;
 /// The number of bytes of a text that are examined: OBJ files may begin with long comments.
 const LOOKED_AT: usize = 64 << 10;
 
+/// The number of bytes at the start of a text that hold no zero. A binary STL has zeros sooner.
+const TEXT: usize = 1 << 10;
+
 /// Returns the format that bytes look like, if it is one of those that are read. The more of the file they hold, the surer
-/// the answer.
+/// the answer. A text may be in UTF-8 or UTF-16, with a mark or without.
 pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     if bytes.starts_with(b"glTF") {
         return Some(MeshFormat::Glb);
-    }
-    if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
-        return Some(MeshFormat::Ply);
     }
     // Checked before text: many binary STL files begin with the word `solid` by which text ones are recognised.
     if stl_triangles(bytes).is_some_and(|count| bytes.len() as u64 == STL_START as u64 + STL_TRIANGLE * count)
     {
         return Some(MeshFormat::StlBinary);
     }
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOKED_AT)]);
-    let start = text.trim_start_matches('\u{feff}').trim_start();
+    let beginning = &bytes[..bytes.len().min(LOOKED_AT)];
+    let text = with_line_feeds(&in_utf8(beginning)).into_owned();
+    if text.starts_with(b"ply") && text.get(3).is_none_or(u8::is_ascii_whitespace) {
+        return Some(MeshFormat::Ply);
+    }
+    let is_text = !text[..text.len().min(TEXT)].contains(&0);
+    let text = String::from_utf8_lossy(&text);
+    let start = text.trim_start();
     if start.starts_with('{') {
         return text.contains("\"asset\"").then_some(MeshFormat::Gltf);
     }
-    if start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case("solid")) {
+    if is_text && start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case("solid")) {
         let lower = text.to_ascii_lowercase();
         // A solid without facets ends at once; the reader reports that it has none.
         if lower.contains("facet") || lower.contains("endsolid") {
@@ -59,7 +68,7 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
         return Some(MeshFormat::Obj);
     }
     // A binary file that begins so is an STL whose length does not agree with its count, which its reader reports.
-    let is_binary = bytes.len() > STL_START && bytes[..bytes.len().min(LOOKED_AT)].contains(&0);
+    let is_binary = bytes.len() > STL_START && beginning.contains(&0);
     (is_binary && bytes.starts_with(b"solid")).then_some(MeshFormat::StlBinary)
 }
 
@@ -71,11 +80,12 @@ pub(super) fn stl_triangles(bytes: &[u8]) -> Option<u64> {
 
 /// Returns whether the first line that is no comment is one of OBJ's, and there is a line of a corner.
 fn is_obj(text: &str) -> bool {
-    const FIRST: [&str; 12] = ["v", "vn", "vt", "vp", "f", "o", "g", "s", "mtllib", "usemtl", "l", "p"];
-    let word = |line: &'_ str| line.split_whitespace().next().unwrap_or_default().to_owned();
+    const FIRST: [&str; 14] =
+        ["v", "vn", "vt", "vp", "f", "o", "g", "s", "mg", "mtllib", "usemtl", "l", "p", "cstype"];
+    let word = |line: &'_ str| line.split_whitespace().next().unwrap_or_default().to_ascii_lowercase();
     let mut words = text.lines().map(word).filter(|w| !w.is_empty() && !w.starts_with('#')).peekable();
     let begins = words.peek().is_some_and(|first| FIRST.contains(&first.as_str()));
-    let numbers = |line: &str| line.split_whitespace().skip(1).take(3).all(|n| n.parse::<f64>().is_ok());
+    let numbers = |line: &str| line.split_whitespace().skip(1).take(3).all(|n| Token::of(n).is_numeric());
     begins
         && text.lines().any(|line| word(line) == "v" && line.split_whitespace().count() >= 4 && numbers(line))
 }

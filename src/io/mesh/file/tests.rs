@@ -4,11 +4,13 @@
 
 mod broken;
 mod faults;
+mod kinds;
+mod packed;
 mod real;
 
 use super::statement::Measures;
 use super::*;
-use crate::cut::from_mesh::{FromMesh, Up, from_mesh};
+use crate::cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
@@ -84,6 +86,17 @@ fn a_stone_without_names_is_written_with_all_its_facets() {
 }
 
 #[test]
+fn a_ply_holds_triangles_alone_because_many_programs_read_no_polygons() {
+    let bytes = write_ply(&body(16), 1.0, None).unwrap();
+    let end = b"end_header\n";
+    let header = end.len() + bytes.windows(end.len()).position(|part| part == end).unwrap();
+    let surface = open(bytes.clone()).surface;
+    // Three f64 for each corner; for each face a byte, which says three, and three i32.
+    assert_eq!(bytes.len(), header + 24 * surface.vertices.len() + 13 * surface.triangles.len());
+    assert_eq!(bytes[bytes.len() - 13], 3);
+}
+
+#[test]
 fn what_is_written_comes_back_with_its_planes_and_names() {
     let clear = MaterialHint::of(optics::material("diamond").unwrap(), 1.0);
     for (count, scale) in [(16, 1.0), (16, 3.25), (96, 3.25)] {
@@ -121,7 +134,8 @@ fn a_stone_posed_from_a_file_is_the_one_that_was_written() {
         (write_glb(&body, "x", 3e-3, (&clear, None)).unwrap(), 1e-6),
     ];
     for (bytes, within) in files {
-        let FromMesh { facets, deviation, .. } = from_mesh(&faceted(&open(bytes)), Up::Found).unwrap();
+        let FromMesh { facets, deviation, .. } =
+            from_mesh(&faceted(&open(bytes)), Up::Found, Evening::default()).unwrap();
         let names: Vec<&String> = facets.iter().map(|(name, _)| name).collect();
         assert_eq!(names, stone.names().iter().collect::<Vec<_>>());
         let normal = |((_, a), b): (&(String, Plane), &Plane)| (a.normal - b.normal).length();
@@ -364,18 +378,22 @@ fn buffers_are_read_beside_the_file_and_nowhere_else() {
         std::fs::write(&path, gltf_json(uri)).unwrap();
         read(&path)
     };
-    let file = read_with("my%20buffer.bin").unwrap();
-    assert!((volume(&file) - 8.0 / 6.0).abs() < 1e-9 && file.name == "a");
-    let secret = folder.path().join("secret.bin").display().to_string();
+    std::fs::create_dir(inner.join("deep")).unwrap();
+    std::fs::write(inner.join("deep/100%.bin"), gltf_buffer()).unwrap();
     for uri in [
-        "../secret.bin",
-        "%2e%2e/secret.bin",
-        "..%2Fsecret.bin",
-        "..",
-        &secret,
-        "file:///etc/passwd",
-        "a\\\\b",
+        "my%20buffer.bin",
+        "my buffer.bin",
+        "./my%20buffer.bin",
+        "deep/100%25.bin",
+        "deep/100%.bin",
+        "deep\\\\100%.bin",
     ] {
+        let file = read_with(uri).unwrap_or_else(|e| panic!("{uri}: {e}"));
+        assert!((volume(&file) - 8.0 / 6.0).abs() < 1e-9 && file.name == "a", "{uri}");
+    }
+    let secret = folder.path().join("secret.bin").display().to_string();
+    for uri in ["../secret.bin", "%2e%2e/secret.bin", "..%2Fsecret.bin", "..", &secret, "file:///etc/passwd"]
+    {
         let error = read_with(uri).unwrap_err().to_string();
         assert!(
             error.contains("a.gltf: buffer 0: ") && error.contains("is not a file beside this one"),

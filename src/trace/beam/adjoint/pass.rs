@@ -167,7 +167,7 @@ impl<'a> ReversePass<'a> {
     fn absorb(&mut self, id: u32, partials: &BeamPartials) -> f64 {
         let beams = self.beams;
         let (node, k) = (&beams.nodes[id], id as usize);
-        let weight = if node.exit == NO_EXIT { 0.0 } else { beams.exits[node.exit as usize].weight };
+        let weight = if node.exit == NO_EXIT { 0.0 } else { beams.exits[node.exit].weight };
         let absorbed = if node.parent == ROOT { 0.0 } else { partials.absorbed[k] };
         let arriving = if node.parent == ROOT { 0.0 } else { beams.nodes[node.parent].onward };
         // The light left after the path, and the light left before the last way, each times its derivative.

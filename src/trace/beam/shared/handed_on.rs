@@ -1,6 +1,7 @@
 //! The results that [`trace_shared`](super::trace_shared) hands on: the beams that land on each facet, the light that
 //! leaves there, and the ends of beams.
 
+use super::group_light::ArrivingLight;
 use super::moving::MovingCorner;
 use super::slanted_light::{EntryFacet, Slant, SlantedLight};
 use crate::math::Affine;
@@ -23,7 +24,7 @@ pub struct SharedBeam<'a> {
     pub slant: Slant,
     /// The outline's area at `slant`.
     pub area: f64,
-    /// The share of the light that arrives, at `slant` and without absorption; 1 for a beam that enters here.
+    /// The share of the light that arrives, as the mean of the group and without absorption; 1 for a beam that enters here.
     pub weight: f64,
     /// The light inside; `None` for a beam that enters here, of which the surface reflects a part.
     pub inside: Option<Inside>,
@@ -34,8 +35,8 @@ pub struct Inside {
     /// The outward unit normal of the facet.
     pub(super) normal: DVec3,
     pub(super) light: SlantedLight,
-    /// The polarisation of the light, in the axes of the facet.
-    pub(super) arriving: Coherency,
+    /// The weight and polarisation of the light, in the axes of the facet.
+    pub(super) arriving: ArrivingLight,
     /// The depths of the facet before and of this one behind the facet by which the light entered.
     pub(super) depths: [Affine; 2],
     /// The speed toward this facet, in two parts: that of light that is not slanted, and the part per slant.
@@ -96,6 +97,19 @@ impl BeamEnd {
 }
 
 impl SharedBeam<'_> {
+    /// Returns three numbers a, b and c: after a change x of the slant, the outline's area is a + b x + c x², below 0 where
+    /// corners have passed one another.
+    pub fn areas(&self) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        let next = self.outline.iter().skip(1).chain(self.outline.first());
+        for (a, b) in self.outline.iter().zip(next) {
+            sums[0] += a.at.perp_dot(b.at);
+            sums[1] += a.at.perp_dot(b.drift) + a.drift.perp_dot(b.at);
+            sums[2] += a.drift.perp_dot(b.drift);
+        }
+        sums.map(|sum| 0.5 * sum)
+    }
+
     /// Returns the share of light that the surface reflects where light enters a medium. The reflected light comes
     /// from the direction of the [glare](EntryFacet::glare).
     pub fn glare(&self, medium: &Medium) -> f64 {
@@ -121,7 +135,7 @@ impl Inside {
         let surface = fresnel(ray.dot(self.normal), medium.index);
         let (direction, change) =
             self.light.leaving(entry, (&slant, medium.spread), ray, self.normal, surface.cos_t?);
-        let (_, weight) = self.arriving.split(&surface);
+        let weight = self.arriving.at(medium.index, |arriving| arriving.split(&surface).1);
         Some(SharedExit { direction, change, weight })
     }
 

@@ -2,14 +2,17 @@
 //!
 //! Light of all wavelengths is reflected by the same facets at the same angles; it differs only by its refraction
 //! where it entered. So the directions inside differ by one number, the [`Slant`]. Along one sequence of facets
-//! everything else follows exactly from it: where light lands, how it leaves and with which weight. Only the outline
-//! of a beam is carried to first order, corner by corner. Wavelengths share a beam as long as sharing changes little.
+//! everything else follows exactly from it: where light lands and how it leaves. The outline of a beam is carried to first order, corner
+//! by corner. Weight and polarisation are carried exactly for the first and the last wavelength of a group; the others have
+//! theirs between them ([`GroupLight`]). Wavelengths share a beam as long as sharing changes little.
 //! Where it would change more, their group is halved, and each half goes on from its own middle.
 
+mod group_light;
 mod handed_on;
 mod moving;
 mod slanted_light;
 
+use self::group_light::{EndLight, GroupLight};
 pub use self::handed_on::{BeamEnd, Inside, SharedBeam, SharedBeams, SharedExit};
 pub use self::moving::MovingCorner;
 use self::moving::{MovingBeam, MovingCell, MovingSplitter};
@@ -82,9 +85,8 @@ struct SharedFront {
     slant: Slant,
     /// The greatest difference of the group's slants from `slant`, to both sides.
     reach: f64,
-    /// The weight and polarisation at `slant`, without absorption; the field `s` holds its axis s.
-    coherency: Coherency,
-    s: DVec3,
+    /// The weight and polarisation of the group's light.
+    group_light: GroupLight,
     /// The depth of the front's facet behind the facet by which the light entered, at `slant`.
     depth: Affine,
     /// The speed toward the facet, in two parts: that of light that is not slanted, and the part per slant.
@@ -240,8 +242,7 @@ impl<'a> Sharer<'a> {
                 light,
                 slant,
                 reach: 0.0,
-                coherency: Coherency::NONE,
-                s: view.basis.right,
+                group_light: GroupLight::none(slant),
                 depth: Affine::default(),
                 speed: DVec2::ZERO,
                 corners: (start, self.corners.len() as u32),
@@ -309,31 +310,20 @@ impl<'a> Sharer<'a> {
             self.regroup(front, group.start..middle);
             return;
         }
-        let direction = front.light.direction(&front.slant);
         let cells = std::mem::take(&mut self.splitter.cells);
         for cell in &cells {
             if cell.twice_area > 2.0 * self.common.sliver {
-                self.land(front, direction, cell, beams);
+                self.land(front, cell, beams);
             }
         }
         self.splitter.cells = cells;
     }
 
     /// Processes the landing of a part of a beam on its facet.
-    fn land(
-        &mut self,
-        front: &SharedFront,
-        direction: DVec3,
-        cell: &MovingCell,
-        beams: &mut impl SharedBeams,
-    ) {
+    fn land(&mut self, front: &SharedFront, cell: &MovingCell, beams: &mut impl SharedBeams) {
         let (common, normal) = (self.common, cell.normal);
-        let cos_i = direction.dot(normal);
-        let surface = fresnel(cos_i, front.slant.index);
-        let s = s_axis(direction, normal, front.s);
-        let arriving = front.coherency.turned(front.s.dot(s), direction.cross(front.s).dot(s));
-        let (reflected, _) = arriving.split(&surface);
-        let coherency = if common.options.beams.polarised { reflected } else { reflected.unpolarised() };
+        let (arriving, group_light) =
+            front.group_light.landed(&front.light, normal, common.options.beams.polarised);
         let (area, speed) =
             (cell.twice_area / 2.0, DVec2::new(front.light.down.dot(normal), front.light.along.dot(normal)));
         let outline = &self.splitter.corners[cell.corners.0..cell.corners.1];
@@ -344,7 +334,7 @@ impl<'a> Sharer<'a> {
             outline,
             slant: front.slant,
             area,
-            weight: front.coherency.weight(),
+            weight: front.group_light.weight(),
             inside: Some(Inside {
                 normal,
                 light: front.light,
@@ -353,17 +343,18 @@ impl<'a> Sharer<'a> {
                 speed,
             }),
         });
-        let energy = coherency.weight() * area * common.most_left(&group, front.slant, cell, outline);
+        let weight = group_light.weight();
+        let energy = weight * area * common.most_left(&group, front.slant, cell, outline);
         if energy <= 0.0 {
             return;
         }
         let light = front.light.mirrored(&common.polytope.facets()[cell.facet as usize].plane);
         let (bounces, depth, slant) = (front.bounces + 1, cell.depth, front.slant);
         if energy * group.len() as f64 >= common.level && bounces < MOST_BOUNCES {
-            self.go_on(SharedFront { bounces, light, coherency, s, depth, speed, ..front.clone() }, cell);
+            self.go_on(SharedFront { bounces, light, group_light, depth, speed, ..front.clone() }, cell);
         } else {
             let outline = outline.iter().map(|corner| corner.at).collect();
-            let weight = coherency.weight();
+            let (coherency, s) = group_light.middle(light.direction(&slant));
             beams.leave(BeamEnd { group, outline, area, slant, weight, energy, coherency, s, light, depth });
         }
     }
@@ -397,14 +388,27 @@ impl<'a> Sharer<'a> {
             0 => front.depth,
             _ => front.depth * (speed(front.slant.slant) / speed(slant.slant)),
         };
-        let (coherency, s) = self.light_at(front, &slant);
+        let group_light = self.group_light(front, &group);
         let group = (group.start as u32, group.end as u32);
         let corners = (start, self.corners.len() as u32);
-        self.stack.push(SharedFront { group, slant, reach, coherency, s, depth, corners, ..front.clone() });
+        self.stack.push(SharedFront { group, slant, reach, group_light, depth, corners, ..front.clone() });
     }
 
-    /// Returns the light that goes on from a front at a slant, and its axis s.
-    fn light_at(&self, front: &SharedFront, slant: &Slant) -> (Coherency, DVec3) {
+    /// Returns the light that goes on from a front for a part of its group. It is new only at wavelengths that were not first
+    /// or last in the whole group.
+    fn group_light(&self, front: &SharedFront, group: &Range<usize>) -> GroupLight {
+        let whole = front.group.0 as usize..front.group.1 as usize;
+        let known = &front.group_light;
+        let at = |k: usize| match k {
+            first if !whole.is_empty() && first == whole.start => known.first,
+            last if !whole.is_empty() && last + 1 == whole.end => known.last.unwrap_or(known.first),
+            other => self.light_at(front, &front.entry.slant(self.common.media[other].index)),
+        };
+        GroupLight { first: at(group.start), last: (group.len() > 1).then(|| at(group.end - 1)) }
+    }
+
+    /// Returns the light that goes on from a front at a slant.
+    fn light_at(&self, front: &SharedFront, slant: &Slant) -> EndLight {
         let (common, entry) = (self.common, &front.entry);
         let polarised = |light: Coherency| match common.options.beams.polarised {
             true => light,
@@ -423,7 +427,7 @@ impl<'a> Sharer<'a> {
             light = polarised(arriving.split(&fresnel(cos_i, slant.index)).0);
             (direction, s) = (reflect(direction, -normal, cos_i), own);
         }
-        (light, s)
+        EndLight { slant: *slant, coherency: light, s }
     }
 }
 
@@ -460,7 +464,7 @@ impl Common<'_> {
         cells: &[MovingCell],
     ) -> bool {
         let SharingOptions { most_change, pixel, .. } = self.options;
-        let light = front.coherency.weight() * group.len() as f64 / self.media.len() as f64;
+        let light = front.group_light.weight() * group.len() as f64 / self.media.len() as f64;
         let most = most_change / light;
         if most >= 1.0 {
             return false;

@@ -2,12 +2,15 @@
 //! stay within them.
 
 use super::super::limits::{self, MAX_BYTES};
+use super::meshopt::{self, Packed};
+use super::repair::DRACO;
+use super::uri;
 use crate::io::file_error::Fault;
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
-use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::{Source, View};
+use glam::DVec3;
+use gltf::accessor::{DataType, Dimensions, Item, Iter};
+use gltf::buffer::{Buffer, Source, View};
 use gltf::{Accessor, Document, Semantic};
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -26,8 +29,10 @@ pub(super) fn load(
     for buffer in document.buffers() {
         let place = format!("buffer {}", buffer.index());
         let read = match buffer.source() {
+            // The bytes are those that packed views make.
+            Source::Bin if is_filled_later(&buffer) => empty(buffer.length()),
             Source::Bin => blob.take().ok_or_else(|| Fault::whole("a binary chunk is expected in the file")),
-            Source::Uri(uri) => from_uri(uri, folder),
+            Source::Uri(uri) => uri::read(uri, folder),
         };
         let whole_one = read.and_then(|bytes| match bytes.len() < buffer.length() {
             true => {
@@ -49,32 +54,108 @@ pub(super) fn load(
         }
         data.push(bytes);
     }
+    unpack(document, &mut data)?;
     Ok(data)
+}
+
+/// Returns whether a buffer has no bytes of its own in the file, because its views are packed elsewhere.
+fn is_filled_later(buffer: &Buffer<'_>) -> bool {
+    buffer.extension_value(meshopt::NAME).and_then(|extension| extension.get("fallback")?.as_bool())
+        == Some(true)
+}
+
+fn empty(length: usize) -> Result<Vec<u8>, Fault> {
+    if length as u64 > MAX_BYTES {
+        Err("it is too large; save a coarser mesh".into())
+    } else {
+        Ok(vec![0; length])
+    }
+}
+
+/// Unpacks the packed views that shapes need into their places.
+fn unpack(document: &Document, data: &mut Data) -> Result<(), Fault> {
+    let needed = needed_views(document);
+    for view in document.views().filter(|view| needed.contains(&view.index())) {
+        let Some(extension) = view.extension_value(meshopt::NAME) else { continue };
+        let place = format!("bufferView {}", view.index());
+        let (buffer, from) = (view.buffer().index(), view.offset());
+        let bytes = unpacked(extension, view.length(), data).map_err(|fault| Fault::part(&place, fault))?;
+        let to = from.checked_add(bytes.len()).and_then(|end| data[buffer].get_mut(from..end));
+        to.ok_or_else(|| Fault::part(&place, "it is larger than its buffer"))?.copy_from_slice(&bytes);
+    }
+    Ok(())
+}
+
+/// Returns the bytes of a packed view, at most `most` of them.
+fn unpacked(extension: &Value, most: usize, data: &Data) -> Result<Vec<u8>, Fault> {
+    let number =
+        |key: &str| extension.get(key).map_or(Some(0), Value::as_u64).and_then(|n| usize::try_from(n).ok());
+    let text = |key: &str| extension.get(key).and_then(Value::as_str).unwrap_or_default();
+    let lacks = || Fault::whole(format!("its {} does not lie within its buffer", meshopt::NAME));
+    let [buffer, offset, length, stride, count] =
+        ["buffer", "byteOffset", "byteLength", "byteStride", "count"]
+            .map(|key| number(key).ok_or_else(lacks));
+    let (offset, length, stride, count) = (offset?, length?, stride?, count?);
+    let end = offset.checked_add(length).ok_or_else(lacks)?;
+    let bytes = data.get(buffer?).and_then(|bytes| bytes.get(offset..end)).ok_or_else(lacks)?;
+    if stride.checked_mul(count).is_none_or(|size| size > most) {
+        return Err(lacks());
+    }
+    Packed { bytes, count, stride, mode: text("mode"), filter: text("filter") }.unpacked()
 }
 
 /// Returns the buffers that hold the positions of corners, or the indices of triangles.
 fn needed(document: &Document) -> BTreeSet<usize> {
-    let primitives = document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
-    let accessors = primitives.flat_map(|p| [p.get(&Semantic::Positions), p.indices()]).flatten();
-    let views = accessors.flat_map(|accessor| {
-        let sparse = accessor.sparse().map(|sparse| [sparse.indices().view(), sparse.values().view()]);
-        accessor.view().into_iter().chain(sparse.into_iter().flatten()).collect::<Vec<_>>()
-    });
-    views.map(|view| view.buffer().index()).collect()
+    let needed = needed_views(document);
+    let views = document.views().filter(|view| needed.contains(&view.index()));
+    let packed = |view: &View<'_>| {
+        let source = view.extension_value(meshopt::NAME)?.get("buffer")?.as_u64()?;
+        usize::try_from(source).ok()
+    };
+    views.flat_map(|view| [Some(view.buffer().index()), packed(&view)]).flatten().collect()
 }
 
-pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
-    if let Some(rest) = uri.strip_prefix("data:") {
-        let (_, text) = rest.split_once(";base64,").ok_or("a `data:` of base64 is expected")?;
-        return STANDARD.decode(text).map_err(|error| Fault::whole(format!("this is not base64: {error}")));
+/// Returns the views of positions, of their displacements, and of indices, and those of packed shapes.
+fn needed_views(document: &Document) -> BTreeSet<usize> {
+    let mut views = BTreeSet::new();
+    for primitive in document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>()) {
+        let shifts = primitive.morph_targets().filter_map(|target| target.positions());
+        let own = [primitive.get(&Semantic::Positions), primitive.indices()].into_iter().flatten();
+        for accessor in own.chain(shifts) {
+            views.extend(accessor.view().map(|view| view.index()));
+            if let Some(sparse) = accessor.sparse() {
+                views.extend([sparse.indices().view().index(), sparse.values().view().index()]);
+            }
+        }
+        let packed = primitive.extension_value(DRACO).and_then(|found| found.get("bufferView")?.as_u64());
+        views.extend(packed.and_then(|view| usize::try_from(view).ok()));
     }
-    let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
-    // Only files beside this one are read: an untrusted mesh must not make the program read others.
-    let outside = name.contains(['/', '\\', ':', '\0']) || name == ".." || name == "." || name.is_empty();
-    let Some(folder) = folder.filter(|_| !outside) else {
-        return Err(format!("`{name}` is not a file beside this one; put it there, or embed it").into());
-    };
-    limits::bytes(&folder.join(&*name)).map_err(|fault| Fault::whole(format!("{name}: {fault}")))
+    views
+}
+
+/// Reads the vectors of an accessor, of any type of numbers that KHR_mesh_quantization allows.
+pub(super) fn vectors(accessor: &Accessor<'_>, data: &Data) -> Result<Vec<DVec3>, Fault> {
+    let types = [DataType::F32, DataType::I8, DataType::U8, DataType::I16, DataType::U16];
+    check(accessor, &types, Dimensions::Vec3, data)?;
+    let is_normalized = accessor.normalized();
+    let scaled = |most: f64| move |x: f64| if is_normalized { (x / most).max(-1.0) } else { x };
+    match accessor.data_type() {
+        DataType::I8 => numbers::<i8>(accessor, data, scaled(127.0)),
+        DataType::U8 => numbers::<u8>(accessor, data, scaled(255.0)),
+        DataType::I16 => numbers::<i16>(accessor, data, scaled(32_767.0)),
+        DataType::U16 => numbers::<u16>(accessor, data, scaled(65_535.0)),
+        _ => numbers::<f32>(accessor, data, |x| x),
+    }
+    .ok_or_else(|| Fault::whole("its corners cannot be read"))
+}
+
+fn numbers<T: Item + Copy + Into<f64>>(
+    accessor: &Accessor<'_>,
+    data: &Data,
+    scaled: impl Fn(f64) -> f64,
+) -> Option<Vec<DVec3>> {
+    let values = Iter::<[T; 3]>::new(accessor.clone(), |buffer| data.get(buffer.index()).map(Vec::as_slice))?;
+    Some(values.map(|vector| DVec3::from_array(vector.map(|x| scaled(x.into())))).collect())
 }
 
 /// Checks that an accessor has one of the expected types and lies within its buffers; the crate checks neither.

@@ -1,6 +1,7 @@
 //! Checks that the images of a glTF file's textures are there. No image is used, so that a fault in one is only a warning.
 
-use super::buffers::{Data, from_uri};
+use super::buffers::Data;
+use super::uri;
 use crate::io::file_error::Fault;
 use gltf::Document;
 use gltf::json::Image;
@@ -37,7 +38,7 @@ fn bytes<'a>(
     folder: Option<&Path>,
 ) -> Result<Cow<'a, [u8]>, Fault> {
     if let Some(uri) = &image.uri {
-        return from_uri(uri, folder).map(Cow::Owned);
+        return uri::read(uri, folder).map(Cow::Owned);
     }
     let view = image.buffer_view.and_then(|index| document.views().nth(index.value()));
     let view = view.ok_or("it has neither a file nor a buffer view")?;

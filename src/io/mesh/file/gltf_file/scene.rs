@@ -4,6 +4,7 @@ use super::super::hint::MaterialHint;
 use super::super::limits;
 use super::super::parsed_mesh::ParsedMesh;
 use super::buffers::{self, Data};
+use super::draco::{self, Unpacked};
 use crate::io::file_error::Fault;
 use crate::io::mesh::export::{FACET, STATEMENT};
 use crate::math::Surface;
@@ -11,7 +12,7 @@ use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::scene::Transform;
-use gltf::{Document, Material, Node, Primitive, Semantic};
+use gltf::{Document, Material, Node, Primitive, Scene, Semantic};
 use std::collections::BTreeMap;
 
 /// The greatest depth of nodes within one another; deeper nodes are taken for a cycle.
@@ -20,19 +21,45 @@ const MOST_NESTED: usize = 100;
 /// The most nodes that are visited; a node that is used twice counts twice.
 const MOST_NODES: usize = 100_000;
 
-/// Gathers all triangles of the scene.
-pub(super) fn gather(document: &Document, data: &Data) -> Result<ParsedMesh, Fault> {
-    let scene = document.default_scene().or_else(|| document.scenes().next());
-    let roots: Vec<Node<'_>> = match scene {
-        Some(scene) => scene.nodes().collect(),
-        None => rootless(document),
-    };
+/// The name of the extension that hides nodes.
+pub(super) const HIDDEN: &str = "KHR_node_visibility";
+
+/// Gathers all triangles of a scene, and returns them with the scene's name: of the default scene, or else of the first one
+/// that has triangles.
+pub(super) fn gather(document: &Document, data: &Data) -> Result<(ParsedMesh, Option<String>), Fault> {
+    let default = document.default_scene();
+    let first = default.as_ref().map(Scene::index);
+    let others = document.scenes().filter(|scene| Some(scene.index()) != first);
+    let scenes: Vec<Scene<'_>> = default.into_iter().chain(others).collect();
+    let with_nodes = scenes.iter().filter(|scene| scene.nodes().len() > 0).count();
+    for (place, scene) in scenes.iter().enumerate() {
+        let mut mesh = gather_from(scene.nodes().collect(), document, data)?;
+        if mesh.surface.triangles.is_empty() {
+            continue;
+        }
+        let called = scene.name().map(|name| format!(" `{name:.60}`")).unwrap_or_default();
+        if place > 0 || with_nodes > 1 {
+            let read =
+                format!("{} scenes are in the file; scene {}{called} is read", scenes.len(), scene.index());
+            mesh.notes.push(if place > 0 {
+                format!("{read}, as those before it have no triangles")
+            } else {
+                read
+            });
+        }
+        return Ok((mesh, scene.name().map(str::to_owned)));
+    }
+    Ok((gather_from(rootless(document), document, data)?, None))
+}
+
+fn gather_from(roots: Vec<Node<'_>>, document: &Document, data: &Data) -> Result<ParsedMesh, Fault> {
+    let mesh = ParsedMesh::default();
     let mut gatherer =
-        Gatherer { data, mesh: ParsedMesh::default(), visited: 0, materials: BTreeMap::new(), skipped: 0 };
+        Gatherer { document, data, mesh, visited: 0, materials: BTreeMap::new(), skipped: 0, hidden: 0 };
     for root in roots {
         gatherer.node(&root, DAffine3::IDENTITY, 0)?;
     }
-    gatherer.finish(document)
+    gatherer.finish()
 }
 
 /// Returns the nodes that are no node's children, for a file without scenes.
@@ -43,12 +70,23 @@ fn rootless(document: &Document) -> Vec<Node<'_>> {
 }
 
 struct Gatherer<'a> {
+    document: &'a Document,
     data: &'a Data,
     mesh: ParsedMesh,
     visited: usize,
     /// The number of triangles of each material that is described, by the material's number.
     materials: BTreeMap<usize, usize>,
     skipped: usize,
+    hidden: usize,
+}
+
+/// Where the corners of a node's mesh lie, and what they are called.
+#[derive(Clone, Copy)]
+struct Posture<'a> {
+    name: &'a str,
+    placed: DAffine3,
+    /// The part of each displacement of corners that is added.
+    weights: &'a [f32],
 }
 
 impl Gatherer<'_> {
@@ -61,14 +99,22 @@ impl Gatherer<'_> {
             );
             return Err(Fault::part(format!("node {}", node.index()), message));
         }
+        let visible = node.extension_value(HIDDEN).and_then(|extension| extension.get("visible")?.as_bool());
+        if visible == Some(false) {
+            self.hidden += 1;
+            return Ok(());
+        }
         let placed = above * transform(&node.transform());
         if self.mesh.said.is_none() {
             self.mesh.said = text_of(node.extras(), STATEMENT);
         }
         if let Some(mesh) = node.mesh() {
-            let name = mesh.name().or(node.name()).unwrap_or_default();
+            // Several nodes may show one mesh, so that their own names tell them apart.
+            let name = node.name().or(mesh.name()).unwrap_or_default();
+            let weights = node.weights().or(mesh.weights()).unwrap_or_default();
             for primitive in mesh.primitives() {
-                self.primitive(&primitive, name, placed).map_err(|fault| {
+                let posture = Posture { name, placed, weights };
+                self.primitive(&primitive, posture).map_err(|fault| {
                     let joint = if fault.key.is_some() { ", " } else { ": " };
                     let own = format!("mesh {}, primitive {}{joint}", mesh.index(), primitive.index());
                     fault.within(&own, &own)
@@ -78,62 +124,89 @@ impl Gatherer<'_> {
         node.children().try_for_each(|child| self.node(&child, placed, depth + 1))
     }
 
-    fn primitive(&mut self, primitive: &Primitive<'_>, name: &str, placed: DAffine3) -> Result<(), Fault> {
+    fn primitive(&mut self, primitive: &Primitive<'_>, posture: Posture<'_>) -> Result<(), Fault> {
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             self.skipped += 1;
             return Ok(());
         }
-        let Some(positions) = primitive.get(&Semantic::Positions) else {
-            return Err("it has no POSITION; places of its corners are expected".into());
+        let (mut vertices, order) = match draco::unpacked(primitive, self.document, self.data)? {
+            Some(Unpacked { vertices, order }) => (vertices, order),
+            None => self.plain(primitive)?,
         };
-        buffers::check(&positions, &[DataType::F32], Dimensions::Vec3, self.data)?;
-        if let Some(indices) = primitive.indices() {
-            let types = [DataType::U8, DataType::U16, DataType::U32];
-            buffers::check(&indices, &types, Dimensions::Scalar, self.data)?;
-        }
-        let reader = primitive.reader(|buffer| self.data.get(buffer.index()).map(Vec::as_slice));
-        let unreadable = || Fault::whole("its corners cannot be read");
-        let at = |p: [f32; 3]| placed.transform_point3(DVec3::from_array(p.map(f64::from)));
-        let vertices: Vec<DVec3> = reader.read_positions().ok_or_else(unreadable)?.map(at).collect();
-        let normals = self.normals(primitive, placed);
-        let order: Vec<u32> = match primitive.indices() {
-            Some(_) => reader.read_indices().ok_or_else(unreadable)?.into_u32().collect(),
-            None => (0..vertices.len() as u32).collect(),
-        };
+        self.displace(primitive, posture.weights, &mut vertices)?;
+        vertices.iter_mut().for_each(|v| *v = posture.placed.transform_point3(*v));
         if let Some(bad) = order.iter().find(|&&v| v as usize >= vertices.len()) {
             return Err(format!("it refers to corner {bad}, from 0, and there are {}", vertices.len()).into());
         }
-        let triangles = triangles(&order, mode);
+        let mut triangles = triangles(&order, mode);
+        if posture.placed.matrix3.determinant() < 0.0 {
+            // A mirror image shows the other side of its triangles.
+            triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        }
         let whole = &self.mesh.surface;
         limits::count(whole.vertices.len() + vertices.len(), whole.triangles.len() + triangles.len())?;
         if let Some(index) = primitive.material().index().filter(|_| hint(&primitive.material()).is_some()) {
             *self.materials.entry(index).or_default() += triangles.len();
         }
-        let name = text_of(primitive.extras(), FACET).unwrap_or_else(|| name.to_owned());
+        let normals = self.normals(primitive, posture.placed, vertices.len());
+        let name = text_of(primitive.extras(), FACET).unwrap_or_else(|| posture.name.to_owned());
         self.mesh.normals.extend(normals);
         self.mesh.surface.append(Surface { names: vec![name], ..Surface::new(vertices, triangles) });
         self.mesh.normals.resize(self.mesh.surface.vertices.len(), DVec3::ZERO);
         Ok(())
     }
 
-    /// Returns the normals of a primitive's corners; none where they cannot be read.
-    fn normals(&self, primitive: &Primitive<'_>, placed: DAffine3) -> Vec<DVec3> {
-        let reader = primitive.reader(|buffer| self.data.get(buffer.index()).map(Vec::as_slice));
-        let is_sound = |accessor: &gltf::Accessor<'_>| {
-            buffers::check(accessor, &[DataType::F32], Dimensions::Vec3, self.data).is_ok()
+    /// Returns the corners of a primitive that is not packed, and the numbers of those that its triangles have.
+    fn plain(&self, primitive: &Primitive<'_>) -> Result<(Vec<DVec3>, Vec<u32>), Fault> {
+        let Some(positions) = primitive.get(&Semantic::Positions) else {
+            return Err("it has no POSITION; places of its corners are expected".into());
         };
-        let turn = placed.matrix3.inverse().transpose();
-        let corners = primitive.get(&Semantic::Positions).map_or(0, |positions| positions.count());
-        let given = primitive.get(&Semantic::Normals).filter(is_sound).and_then(|_| reader.read_normals());
-        given.into_iter().flatten().take(corners).map(|n| turn * DVec3::from(n.map(f64::from))).collect()
+        let vertices = buffers::vectors(&positions, self.data)?;
+        let Some(indices) = primitive.indices() else {
+            let order = (0..vertices.len() as u32).collect();
+            return Ok((vertices, order));
+        };
+        let types = [DataType::U8, DataType::U16, DataType::U32];
+        buffers::check(&indices, &types, Dimensions::Scalar, self.data)?;
+        let reader = primitive.reader(|buffer| self.data.get(buffer.index()).map(Vec::as_slice));
+        let order = reader.read_indices().ok_or_else(|| Fault::whole("its triangles cannot be read"))?;
+        Ok((vertices, order.into_u32().collect()))
     }
 
-    fn finish(mut self, document: &Document) -> Result<ParsedMesh, Fault> {
+    /// Adds the displacements of a primitive's morph targets to its corners.
+    fn displace(
+        &self,
+        primitive: &Primitive<'_>,
+        weights: &[f32],
+        vertices: &mut [DVec3],
+    ) -> Result<(), Fault> {
+        for (target, &weight) in primitive.morph_targets().zip(weights).filter(|(_, weight)| **weight != 0.0)
+        {
+            let Some(positions) = target.positions() else { continue };
+            let shifts = buffers::vectors(&positions, self.data)?;
+            vertices.iter_mut().zip(shifts).for_each(|(v, shift)| *v += f64::from(weight) * shift);
+        }
+        Ok(())
+    }
+
+    /// Returns the normals of a primitive's corners; none where they cannot be read.
+    fn normals(&self, primitive: &Primitive<'_>, placed: DAffine3, corners: usize) -> Vec<DVec3> {
+        let turn = placed.matrix3.inverse().transpose();
+        let given = primitive
+            .get(&Semantic::Normals)
+            .filter(|_| primitive.extension_value(super::repair::DRACO).is_none());
+        let given = given.and_then(|accessor| buffers::vectors(&accessor, self.data).ok());
+        given.into_iter().flatten().take(corners).map(|normal| turn * normal).collect()
+    }
+
+    fn finish(mut self) -> Result<ParsedMesh, Fault> {
+        let document = self.document;
         let most = self.materials.iter().max_by_key(|(index, count)| (**count, std::cmp::Reverse(**index)));
         self.mesh.hint = most.and_then(|(&index, _)| hint(&document.materials().nth(index)?));
         let mut warn = |odd: bool, text: String| self.mesh.warnings.extend(odd.then_some(text));
         warn(self.skipped > 0, format!("{} parts of points or lines are left out", self.skipped));
+        warn(self.hidden > 0, format!("{} hidden nodes are left out, with all below them", self.hidden));
         warn(
             self.materials.len() > 1,
             format!(

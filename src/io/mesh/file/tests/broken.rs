@@ -71,7 +71,6 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
         ),
         ("a material that is not there", "/meshes/0/primitives/0/material", "4", false),
         ("a material in words", "/meshes/0/primitives/0/material", r#""gold""#, false),
-        ("an index in words", "/materials/0/extensions/KHR_materials_ior/ior", r#""high""#, false),
         ("a name that is a list", "/materials/0/name", "[]", false),
     ];
     for (what, place, instead, keeps_light) in faults {
@@ -91,6 +90,18 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
         assert!(whole.statement.is_some() && file.statement == whole.statement, "{what}");
         assert_eq!(file.hint.is_some(), keeps_light, "{what}: {:?}", file.hint);
         assert!(!keeps_light || file.hint == whole.hint, "{what}: {:?}", file.hint);
+    }
+}
+
+#[test]
+fn a_number_about_light_that_is_none_is_left_out_alone() {
+    let whole = opened(&textured()).unwrap().hint.unwrap();
+    for instead in [r#""high""#, "null", "{}"] {
+        let mut root = textured();
+        root["materials"][0]["extensions"]["KHR_materials_ior"]["ior"] =
+            serde_json::from_str(instead).unwrap();
+        let hint = opened(&root).unwrap().hint.unwrap();
+        assert_eq!(hint, MaterialHint { ior: None, ..whole.clone() }, "{instead}");
     }
 }
 
@@ -156,7 +167,7 @@ fn a_broken_shape_is_an_error_though_textures_are_broken_too() {
         ("/accessors/0/count", "1000"),
         ("/meshes/0/primitives/0/indices", "99"),
         ("/nodes/1/mesh", "5"),
-        ("/extensionsRequired/0", r#""KHR_draco_mesh_compression""#),
+        ("/extensionsRequired/0", r#""EXT_mesh_gpu_instancing""#),
     ] {
         for breaks_texture in [false, true] {
             let mut root = textured();

@@ -47,7 +47,7 @@ fn real_meshes_open_as_what_they_are() {
         println!("{name}: {:?}", mended.mending);
         assert_eq!(found.is_some(), expected.is_some(), "{name}");
         let (Some(found), Some((count, turns, within))) = (found, expected) else { continue };
-        let stone = from_mesh(&found, Up::Found).unwrap();
+        let stone = from_mesh(&found, Up::Found, Evening::default()).unwrap();
         println!("  deviation {:.1e}, {:?}", stone.deviation, tiers(&stone));
         assert_eq!((stone.facets.len(), stone.evened.turns), (count, turns), "{name}");
         assert!(stone.deviation < within, "{name}: {}", stone.deviation);
@@ -80,7 +80,7 @@ fn a_million_triangles_load_in_seconds() {
     let welded = start.elapsed().as_secs_f64();
     let SurfaceKind::Convex(found) = facets(mended.surface) else { panic!("taken for concave") };
     let faceted = start.elapsed().as_secs_f64();
-    let stone_back = from_mesh(&found, Up::Found).unwrap();
+    let stone_back = from_mesh(&found, Up::Found, Evening::default()).unwrap();
     let all = start.elapsed().as_secs_f64();
     println!(
         "{} triangles: read {read:.2} s, mended {welded:.2} s, facets {faceted:.2} s, posed {all:.2} s; tolerance {:.1e}",

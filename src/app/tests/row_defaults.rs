@@ -1,0 +1,262 @@
+//! Tests of rows: each change is one step of undo, and a double click sets the default.
+
+use super::light_and_glass::pick;
+use super::*;
+use crate::app::model::action::{Edit, FileAction, ViewAction};
+use crate::app::model::command::Command;
+use crate::app::model::dialog::Then;
+use crate::app::model::render_settings::{RenderSettings, SettingChange};
+use crate::app::model::update;
+use crate::app::model::work::Work;
+use crate::app::studio::Smoothing;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
+
+/// Returns the names of all fields for numbers in sight, and the value of each.
+fn numbers(bench: &Bench) -> Vec<(String, f64)> {
+    let fields = bench.harness.query_all_by_role(Role::SpinButton);
+    let number = |node: egui_kittest::Node<'_>| {
+        let node = node.accesskit_node();
+        Some((node.label()?, node.numeric_value()?))
+    };
+    fields.filter_map(number).collect()
+}
+
+fn number(bench: &Bench, name: &str) -> f64 {
+    bench.field(Role::SpinButton, name).accesskit_node().numeric_value().unwrap()
+}
+
+fn work(bench: &Bench) -> Work {
+    bench.editor().model.document.work.clone()
+}
+
+fn undo(bench: &mut Bench) {
+    bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    bench.harness.run_steps(3);
+}
+
+fn double_click(bench: &mut Bench, at: Pos2) {
+    bench.harness.hover_at(at);
+    bench.harness.run_steps(2);
+    for pressed in [true, false, true, false] {
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        bench.harness.event(Event::PointerButton { pos: at, button, pressed, modifiers });
+        bench.harness.run_steps(2);
+    }
+    // The first click could have been followed by another.
+    bench.harness.run_steps(30);
+}
+
+/// Clicks the name of the row of a field twice; a heading may have the same name.
+fn double_click_name(bench: &mut Bench, role: Role, name: &str) {
+    bench.field(role, name).scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
+    let row = bench.field(role, name).rect();
+    let names = bench.harness.query_all_by_role_and_label(Role::Label, name).map(|label| label.rect());
+    let label = names.into_iter().find(|label| label.y_range().contains(row.center().y)).unwrap();
+    double_click(bench, label.left_center() + egui::vec2(8.0, 0.0));
+}
+
+/// Changes each number of a document, undoes that, changes it again and resets it, and returns how many there are.
+fn assert_rows(bench: &mut Bench) -> usize {
+    // The angle of view is a step of the views, and a number that is not known has no default.
+    let is_meant = |(name, value): &(String, f64)| name != "View angle" && value.is_finite();
+    let all: Vec<_> = numbers(bench).into_iter().filter(is_meant).collect();
+    for (name, value) in &all {
+        let before = work(bench);
+        let is_least = *value == 0.0 || name == "Copies";
+        let changed = if is_least { value + 1.0 } else { value * 0.93 };
+        let changed = if *value == value.round() && value.abs() >= 3.0 { changed.floor() } else { changed };
+        bench.type_number(name, &format!("{changed:.4}"));
+        assert!(work(bench) != before, "{name}: {value} to {changed}");
+        undo(bench);
+        assert!(work(bench) == before, "{name}: undo restores everything");
+        bench.type_number(name, &format!("{changed:.4}"));
+        double_click_name(bench, Role::SpinButton, name);
+        assert!(
+            (number(bench, name) - value).abs() < 1e-4 * value.abs().max(1.0),
+            "{name}: {}",
+            number(bench, name)
+        );
+        undo(bench);
+        undo(bench);
+        assert!(work(bench) == before, "{name}: two steps lead back");
+    }
+    all.len()
+}
+
+#[test]
+fn each_number_of_a_cut_and_of_its_light_is_undone_and_reset() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1200.0, 900.0));
+    bench.harness.state_mut().act(Edit::Setting(SettingChange::Background(Some("page".into()))));
+    bench.harness.state_mut().act(ViewAction::Show(0, Shows::LiquidGlass));
+    bench.harness.run_steps(3);
+    let count = assert_rows(&mut bench);
+    assert!(count > 25, "{count}");
+}
+
+#[test]
+fn each_number_of_a_scene_of_glass_is_undone_and_reset_to_that_of_its_preset() {
+    let mut bench = Bench::sized(
+        Setup { file: Some("subtle-pill".into()), ..Setup::default() },
+        egui::vec2(1200.0, 900.0),
+    );
+    bench.harness.run_steps(3);
+    assert!(assert_rows(&mut bench) > 12);
+    bench.type_number("Strength", "0.5");
+    bench.type_number("Exposure", "2");
+    pick(&mut bench, "Background", "city");
+    bench.field(Role::Button, "Reset light").scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
+    bench.click("Reset light");
+    let first = bench.editor().model.document.first_settings().clone();
+    assert_eq!(
+        (work(&bench).settings, first.strength, first.background.as_deref()),
+        (first.clone(), 0.035, Some("page"))
+    );
+    undo(&mut bench);
+    assert_eq!(work(&bench).settings.background.as_deref(), Some("city"));
+}
+
+#[test]
+fn each_choice_is_undone_and_reset() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1200.0, 900.0));
+    bench.harness.run_steps(3);
+    for (row, entry) in [
+        ("Material", "sapphire"),
+        ("Light", "office"),
+        ("Light axis", "up"),
+        ("Wavelengths", "64"),
+        ("Background", "two colours"),
+        ("Smoothing", "FXAA"),
+    ] {
+        let before = work(&bench);
+        pick(&mut bench, row, entry);
+        let after = work(&bench);
+        assert!(after != before, "{row}");
+        undo(&mut bench);
+        assert!(work(&bench) == before, "{row}");
+        bench.harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+        bench.harness.run_steps(3);
+        assert!(work(&bench) == after, "{row}");
+        let shown = bench.field(Role::ComboBox, row).accesskit_node().value();
+        assert!(shown.is_none_or(|shown| shown == entry), "{row} shows its entry in words");
+        double_click_name(&mut bench, Role::ComboBox, row);
+        assert!(work(&bench) == before, "{row}");
+    }
+}
+
+#[test]
+fn a_double_click_on_a_slider_is_one_step() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1200.0, 900.0));
+    bench.type_number("Exposure", "2");
+    let before = work(&bench);
+    bench.field(Role::Slider, "Exposure").scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
+    let rect = bench.field(Role::Slider, "Exposure").rect();
+    double_click(&mut bench, rect.left_center() + egui::vec2(12.0, 0.0));
+    assert_eq!(work(&bench).settings.exposure, 0.0);
+    undo(&mut bench);
+    assert!(work(&bench) == before, "the first click is no step of its own");
+}
+
+/// Every change of a setting that a picture is made with.
+fn changes() -> Vec<SettingChange> {
+    let liquid = crate::app::liquid::Liquid { frost: 40.0, ..Default::default() };
+    vec![
+        SettingChange::Light("office".into()),
+        SettingChange::LightTurn(30.0),
+        SettingChange::LightUpright(true),
+        SettingChange::Exposure(1.0),
+        SettingChange::Wavelengths(64),
+        SettingChange::Glow(0.9),
+        SettingChange::Bounces(3),
+        SettingChange::Background(Some("grid".into())),
+        SettingChange::BackgroundMm(Some(77.0)),
+        SettingChange::Strength(0.5),
+        SettingChange::Smoothing(Smoothing::Fxaa),
+        SettingChange::Head(12.0),
+        SettingChange::Liquid(Box::new(liquid)),
+    ]
+}
+
+#[test]
+fn each_setting_is_a_step_of_undo_and_outlives_no_document() {
+    let kinds: std::collections::HashSet<_> = changes().iter().map(std::mem::discriminant).collect();
+    assert_eq!(kinds.len(), changes().len());
+    for change in changes() {
+        let mut model = Model::new(Workspace::default()).unwrap();
+        let first = model.document.work.clone();
+        update(&mut model, Edit::Setting(change.clone()).into());
+        let changed = model.document.work.settings.clone();
+        assert_ne!(changed, first.settings, "{change:?}");
+        update(&mut model, Command::Undo.into());
+        assert_eq!(model.document.work, first, "{change:?}");
+        update(&mut model, Command::Redo.into());
+        assert_eq!(model.document.work.settings, changed, "{change:?}");
+        update(&mut model, Command::ResetLight.into());
+        let is_light = !matches!(change, SettingChange::Smoothing(_) | SettingChange::Liquid(_));
+        assert_eq!(model.document.work.settings == first.settings, is_light, "{change:?}");
+        for next in ["modern-ideal", "subtle-pill"] {
+            let is_scene = next == "subtle-pill";
+            let then = if is_scene { Then::Preset(next.to_owned()) } else { Then::Library(next.to_owned()) };
+            update(&mut model, Edit::Setting(change.clone()).into());
+            update(&mut model, FileAction::Ask(then).into());
+            assert_eq!(
+                model.document.work.settings,
+                *model.document.first_settings(),
+                "{change:?} in {next}"
+            );
+        }
+    }
+    assert_eq!(
+        RenderSettings::default(),
+        *Model::new(Workspace::default()).unwrap().document.first_settings()
+    );
+}
+
+#[test]
+fn a_field_says_what_it_means_and_no_tooltip_stays_over_a_dialog() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1200.0, 700.0));
+    bench.harness.ctx.all_styles_mut(|style| style.interaction.tooltip_delay = 0.0);
+    bench.harness.run_steps(3);
+    let meaning = "The angle between the bezels";
+    for (role, name) in [(Role::SpinButton, "Crown angle"), (Role::Slider, "Crown angle")] {
+        let at = bench.field(role, name).rect().center();
+        for x in [0.0, 1.0, 2.0] {
+            bench.harness.hover_at(at + egui::vec2(x, 0.0));
+            bench.harness.step();
+        }
+        (0..40).for_each(|_| bench.harness.step());
+        assert!(bench.harness.query_by_label_contains(meaning).is_some(), "{role:?}");
+        assert!(bench.harness.query_by_label_contains("A double click sets 34.5").is_some(), "{role:?}");
+    }
+    bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    bench.harness.run_steps(4);
+    assert!(bench.editor().model.session.dialog.is_some());
+    assert!(bench.harness.query_by_label_contains(meaning).is_none());
+}
+
+#[test]
+fn a_note_of_what_was_saved_ends_with_the_next_change() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, crate::io::library::cut("tolkowsky").unwrap()).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
+    bench.wait(|editor| editor.model.document.path().is_some());
+    bench.type_number("Table", "57");
+    bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    bench.wait(|editor| !editor.model.document.is_changed());
+    assert!(bench.harness.query_by_label_contains("Saved ").is_some());
+    bench.type_number("Table", "58");
+    assert!(bench.harness.query_by_label_contains("Saved ").is_none());
+}
+
+#[test]
+fn menus_mark_how_many_views_are_in_sight() {
+    let mut model = Model::new(Workspace::default()).unwrap();
+    let marked =
+        |model: &Model| [Command::One, Command::Two, Command::Four].map(|command| model.is_chosen(command));
+    assert_eq!(marked(&model), [false, false, true]);
+    update(&mut model, ViewAction::Enlarge(2).into());
+    assert_eq!(marked(&model), [true, false, false], "a view is alone");
+}

@@ -1,0 +1,40 @@
+//! Keeps the comments of a cut file from being lost where a command writes over the file that it reads.
+
+use crate::io::{Failure, has_comments};
+use std::path::Path;
+
+/// Refuses to write over the file that is read where that has comments, which the new file would lack; `remedy` ends the
+/// message.
+///
+/// # Errors
+/// Fails with [`Failure::Usage`] where comments would be lost.
+pub fn keep(input: &Path, output: &Path, remedy: &str) -> Result<(), Failure> {
+    // What cannot be read as text, such as a mesh, has no comments that a cut file would keep.
+    let text = || std::fs::read_to_string(input).unwrap_or_default();
+    if !is_same(input, output) || !has_comments(&text()) {
+        return Ok(());
+    }
+    let path = output.display();
+    Err(Failure::Usage(format!(
+        "{path}: this is the file that is read, and its comments would be lost; {remedy}"
+    )))
+}
+
+/// Returns whether two paths lead to one file.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let places = [a, b].map(std::fs::canonicalize);
+    matches!(places, [Ok(a), Ok(b)] if a == b || has_same_number(&a, &b))
+}
+
+/// Returns whether two paths are names of one file.
+#[cfg(unix)]
+fn has_same_number(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let [a, b] = [a, b].map(|path| path.metadata().map(|file| (file.dev(), file.ino())).ok());
+    a.is_some() && a == b
+}
+
+#[cfg(not(unix))]
+fn has_same_number(_: &Path, _: &Path) -> bool {
+    false
+}

@@ -1,0 +1,205 @@
+//! Tests that the documents show commands, options, names and files that exist.
+
+use super::{Arguments, parsed, spelt_out};
+use crate::io::library;
+use clap::{Command, CommandFactory};
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// The documents that show commands.
+const DOCUMENTS: [&str; 7] = [
+    "README.md",
+    "docs/guide.md",
+    "docs/cutting.md",
+    "docs/editor.md",
+    "docs/formats.md",
+    "docs/gallery.md",
+    "docs/performance.md",
+];
+
+/// Options of other programs that the documents name.
+const FOREIGN_OPTIONS: [&str; 12] = [
+    "--release",
+    "--features",
+    "--no-default-features",
+    "--path",
+    "--open",
+    "--bin",
+    "--example",
+    "--locked",
+    "--lib",
+    "--test",
+    "--ignored",
+    "--nocapture",
+];
+
+fn read(document: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// A line of a document that shows the program, without what a shell would make of its end.
+struct ShownCommand {
+    at: String,
+    words: Vec<String>,
+}
+
+/// Returns the commands in the blocks of a document, each as its words.
+fn commands(document: &str) -> Vec<ShownCommand> {
+    let text = read(document).replace("\\\n", " ");
+    let mut commands = vec![];
+    let mut in_block = false;
+    for (number, line) in (1..).zip(text.lines()) {
+        in_block ^= line.starts_with("```");
+        let Some(rest) = line.trim_start().strip_prefix("brillianteer ").filter(|_| in_block) else {
+            continue;
+        };
+        commands.push(ShownCommand { at: format!("{document}, near line {number}"), words: words(rest) });
+    }
+    commands
+}
+
+/// Divides a command into words, up to a comment, a pipe or a redirection.
+fn words(command: &str) -> Vec<String> {
+    let mut words: Vec<String> = vec![];
+    let mut is_open = false;
+    for part in command.split('"') {
+        match is_open {
+            true => words.push(part.to_owned()),
+            false => {
+                for word in part.split_whitespace() {
+                    if ["#", "|", ">", "<"].contains(&word) {
+                        return words;
+                    }
+                    words.push(word.to_owned());
+                }
+            }
+        }
+        is_open = !is_open;
+    }
+    words
+}
+
+/// Returns whether a word is the name of something that comes with the program or of a file of the repository. Files that a
+/// reader has, such as design.asc or mine.toml, cannot be looked up.
+fn exists(option: Option<&str>, word: &str) -> bool {
+    let in_repository = ["docs/", "cuts/", "scenes/", "tests/"].iter().any(|folder| word.starts_with(folder));
+    if in_repository {
+        return Path::new(env!("CARGO_MANIFEST_DIR")).join(word).exists();
+    }
+    let is_file = word.contains('.') || word == "-";
+    match option {
+        Some("--material") => word.parse::<f64>().is_ok() || crate::optics::material(word).is_ok(),
+        Some("--light") => is_file || crate::scene::light(word).is_some(),
+        Some("--views") => word.split(',').all(|name| crate::picture::named(name).is_some()),
+        Some("--scope") => is_file || crate::picture::named(word).is_some(),
+        Some(_) => true,
+        None => {
+            is_file || library::cut(word).is_some() || library::scene(word).is_some() || word == "designs"
+        }
+    }
+}
+
+#[test]
+fn commands_in_the_documents_are_understood_and_name_what_exists() {
+    let mut count = 0;
+    // The overview in the README has a test of its own.
+    for ShownCommand { at, words } in DOCUMENTS[1..].iter().flat_map(|document| commands(document)) {
+        let line = words.join(" ");
+        let given = std::iter::once("brillianteer").chain(words.iter().map(String::as_str));
+        let given: Vec<OsString> = spelt_out(given.map(OsString::from).collect());
+        if let Err(error) = parsed(&given) {
+            panic!("{at}: {line}: {error}");
+        }
+        let lists_names = ["scopes", "lights", "scenes", "cuts", "materials", "completions", "man", "help"];
+        if !lists_names.contains(&words[0].as_str()) {
+            let mut option: Option<&str> = None;
+            for word in &words[1..] {
+                let asked = option.filter(|option| takes_value(&words[0], option));
+                let is_option = word.starts_with("--") || word.starts_with('-') && word.len() == 2;
+                option = (asked.is_none() && is_option).then_some(word.as_str());
+                assert!(option.is_some() || exists(asked, word), "{at}: {line}: there is no {word}");
+            }
+        }
+        count += 1;
+    }
+    assert!(count > 60, "{count} commands");
+}
+
+/// Returns whether an option of a command is followed by a value.
+fn takes_value(command: &str, option: &str) -> bool {
+    let all = Arguments::command();
+    let (Some(command), Some(long)) = (all.find_subcommand(command), option.strip_prefix("--")) else {
+        return true;
+    };
+    let argument = command.get_arguments().find(|own| own.get_long() == Some(long));
+    argument.is_none_or(|argument| argument.get_action().takes_values())
+}
+
+/// Returns the options of a command, and of those below it.
+fn options(command: &Command) -> BTreeSet<String> {
+    let own = command.get_arguments().filter_map(|own| own.get_long()).map(|long| format!("--{long}"));
+    let mut all: BTreeSet<String> = own.collect();
+    command.get_subcommands().for_each(|below| all.extend(options(below)));
+    all
+}
+
+/// Returns the long options that a text names.
+fn named_options(text: &str) -> impl Iterator<Item = &str> {
+    text.match_indices("--").filter_map(|(at, _)| {
+        let before = text[..at].chars().next_back();
+        let name = text[at + 2..].split(|c: char| !c.is_ascii_lowercase() && c != '-').next()?;
+        let is_begun = before.is_none_or(|c| matches!(c, '`' | ' ' | '('));
+        (is_begun && name.starts_with(|c: char| c.is_ascii_lowercase()))
+            .then(|| &text[at..at + 2 + name.len()])
+    })
+}
+
+#[test]
+fn options_that_the_documents_name_exist() {
+    let mut known = options(&Arguments::command());
+    known.extend(FOREIGN_OPTIONS.map(str::to_owned));
+    known.extend(["--help", "--version"].map(str::to_owned));
+    let mut count = 0;
+    for document in DOCUMENTS {
+        let text = read(document);
+        for option in named_options(&text) {
+            assert!(known.contains(option), "{document} names {option}, which no command takes");
+            count += 1;
+        }
+    }
+    assert!(count > 150, "{count} options");
+}
+
+#[test]
+fn the_overview_in_the_readme_names_every_command_and_options_that_it_takes() {
+    let all = Arguments::command();
+    let text = read("README.md");
+    let block = text.split("```").find(|block| block.contains("brillianteer [FILE]")).unwrap();
+    let mut named = BTreeSet::new();
+    for entry in block.split("\nbrillianteer ").skip(2) {
+        let (synopsis, _) = entry.split_once("  ").unwrap_or((entry, ""));
+        let names = synopsis.lines().next().unwrap_or_default().split(" | ");
+        for name in names.filter_map(|part| part.split_whitespace().next()) {
+            let command = all.find_subcommand(name).unwrap_or_else(|| panic!("no command {name}"));
+            let options = options(command);
+            named_options(entry).for_each(|option| assert!(options.contains(option), "{name} {option}"));
+            named.insert(name.to_owned());
+        }
+    }
+    let own = all.get_subcommands().filter(|command| !command.is_hide_set()).map(Command::get_name);
+    let missing: Vec<&str> =
+        own.filter(|name| !named.contains(*name) && !["edit", "man", "help"].contains(name)).collect();
+    assert!(missing.is_empty(), "the README does not name {missing:?}");
+}
+
+#[test]
+fn the_readme_counts_the_families_and_materials_that_there_are() {
+    let text = read("README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("Twenty-three [families]") && text.contains("30 gem materials and 12 glasses"));
+    assert_eq!(crate::optics::materials().len(), 30 + 12);
+    let headings = read("docs/families.md").lines().filter(|line| line.starts_with("| [")).count();
+    // The round brilliant has a section of its own in docs/formats.md.
+    assert_eq!(headings + 1, 23);
+}

@@ -1,0 +1,98 @@
+//! Reads what the address of a buffer or an image stands for: bytes that are written in it, or a file beside the glTF file.
+
+use super::super::limits;
+use crate::io::file_error::Fault;
+use base64::Engine as _;
+use base64::alphabet::{STANDARD, URL_SAFE};
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+/// Browsers read base64 without its padding.
+const TOLERANT: GeneralPurposeConfig = GeneralPurposeConfig::new()
+    .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+    .with_decode_allow_trailing_bits(true);
+
+/// Returns the bytes that an address stands for; `folder` is that of the glTF file.
+pub(super) fn read(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
+    if let Some(rest) = uri.trim_start().strip_prefix("data:") {
+        return written_out(rest);
+    }
+    let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
+    let Some(path) = folder.and_then(|folder| within(folder, &name)) else {
+        return Err(
+            format!("`{name}` is not a file beside this one or below; put it there, or embed it").into()
+        );
+    };
+    // Some programs write names as they are, though they hold a percent sign.
+    let literal = folder.and_then(|folder| within(folder, uri)).filter(|path| path.exists());
+    let path = if path.exists() { path } else { literal.unwrap_or(path) };
+    limits::bytes(&path).map_err(|fault| Fault::whole(format!("{name}: {fault}")))
+}
+
+/// Returns the file of a relative path within a folder. Only files within it are read: an untrusted mesh must not make the
+/// program read others.
+fn within(folder: &Path, name: &str) -> Option<PathBuf> {
+    let is_absolute = name.starts_with(['/', '\\']) || name.contains([':', '\0']);
+    let mut path = folder.to_path_buf();
+    let mut is_named = false;
+    for part in name.split(['/', '\\']).filter(|part| !matches!(*part, "" | ".")) {
+        if part == ".." {
+            return None;
+        }
+        path.push(part);
+        is_named = true;
+    }
+    (is_named && !is_absolute).then_some(path)
+}
+
+/// Returns the bytes of an address that holds them itself, behind `data:`.
+fn written_out(rest: &str) -> Result<Vec<u8>, Fault> {
+    let (kind, text) =
+        rest.split_once(',').ok_or("a comma is expected in an address that begins with `data:`")?;
+    let bytes: Cow<'_, [u8]> = percent_encoding::percent_decode_str(text).into();
+    if !kind.trim_end().to_ascii_lowercase().ends_with(";base64") {
+        return Ok(bytes.into_owned());
+    }
+    let digits: Vec<u8> = bytes.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect();
+    let is_safe = digits.iter().any(|byte| matches!(byte, b'-' | b'_'));
+    let alphabet = if is_safe { &URL_SAFE } else { &STANDARD };
+    let decoded = GeneralPurpose::new(alphabet, TOLERANT).decode(digits);
+    decoded.map_err(|error| Fault::whole(format!("this is not base64: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_in_an_address_are_read_in_every_writing() {
+        let bytes = [0xfb_u8, 0xef, 0xbe, 0xff];
+        for uri in [
+            "data:application/octet-stream;base64,++++/w==",
+            "data:application/octet-stream;base64,++++/w",
+            "data:;charset=x;BASE64,%2B%2B%2B%2B%2Fw%3D%3D",
+            "data:application/gltf-buffer;base64,----_w",
+            "data:;base64, ++++\n /w==",
+            "data:application/octet-stream,%FB%EF%BE%FF",
+        ] {
+            assert_eq!(read(uri, None).unwrap(), bytes, "{uri}");
+        }
+        for broken in ["data:", "data:;base64,###", "data:;base64,A"] {
+            assert!(read(broken, None).is_err(), "{broken}");
+        }
+    }
+
+    #[test]
+    fn only_files_within_the_folder_are_read() {
+        let folder = Path::new("/a/b");
+        for (name, path) in
+            [("c.bin", "/a/b/c.bin"), ("./d/c.bin", "/a/b/d/c.bin"), ("d\\c.bin", "/a/b/d/c.bin")]
+        {
+            assert_eq!(within(folder, name).as_deref(), Some(Path::new(path)), "{name}");
+        }
+        for outside in ["../c", "d/../c", "/c", "\\c", "C:\\c", "file:///c", "", ".", "./", "..", "a\0b"] {
+            assert_eq!(within(folder, outside), None, "{outside}");
+        }
+    }
+}

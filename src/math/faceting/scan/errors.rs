@@ -1,0 +1,83 @@
+//! The standard errors of fitted planes: from the noise about each plane, its correlation, and rounding.
+
+use super::correlation::inflation;
+use super::members::Members;
+use super::patches::Corners;
+use super::points::PlaneEstimate;
+use super::rounding::{alike, steps};
+use crate::math::faceting::plane_error::PlaneError;
+use crate::math::{bounds, solved};
+use glam::{DMat3, DVec3};
+
+/// The weight of the variance that all facets give for the direction of a facet beside that of its own corners, in corners.
+const COMMON: f64 = 20.0;
+
+/// The least part of the mean variance that is taken for any direction.
+const LEAST: f64 = 0.02;
+
+/// The least part of a facet's noise that is taken to be left after the fit.
+const MOST_FOLLOWED: f64 = 0.3;
+
+/// Returns the variance of the noise about each plane.
+///
+/// The noise of a scanner depends on the direction. So a facet's own corners and what all facets tell of its direction are
+/// averaged.
+pub(super) fn variances(fits: &[PlaneEstimate]) -> Vec<f64> {
+    let freedom: f64 = fits.iter().map(|fit| fit.freedom() as f64).sum();
+    let mean = fits.iter().map(|fit| fit.squares).sum::<f64>() / freedom.max(1.0);
+    let noise = by_direction(fits, mean);
+    let each = |fit: &PlaneEstimate| {
+        let normal = fit.plane.normal;
+        let common = normal.dot(noise * normal).max(LEAST * mean);
+        (fit.squares + COMMON * common) / (fit.freedom() as f64 + COMMON)
+    };
+    fits.iter().map(each).collect()
+}
+
+/// Returns the covariance matrix of the corners' noise that fits the variances about all planes best, near to the same
+/// `mean` in all directions where the facets do not tell.
+fn by_direction(fits: &[PlaneEstimate], mean: f64) -> DMat3 {
+    let mut matrix = [[0.0; 7]; 6];
+    for (k, row) in matrix.iter_mut().enumerate() {
+        // One corner's worth of a belief that the directions are alike.
+        row[k] = 1.0;
+    }
+    for fit in fits.iter().filter(|fit| fit.freedom() > 0) {
+        let n = fit.plane.normal;
+        let terms = [n.x * n.x, n.y * n.y, n.z * n.z, 2.0 * n.x * n.y, 2.0 * n.x * n.z, 2.0 * n.y * n.z];
+        let weight = fit.freedom() as f64;
+        for i in 0..6 {
+            for j in 0..6 {
+                matrix[i][j] += weight * terms[i] * terms[j];
+            }
+            matrix[i][6] += weight * terms[i] * (fit.variance() - mean);
+        }
+    }
+    let [x, y, z, xy, xz, yz] = solved(matrix);
+    DMat3::from_cols(DVec3::new(x, xy, xz), DVec3::new(xy, y, yz), DVec3::new(xz, yz, z))
+        + DMat3::from_diagonal(DVec3::splat(mean))
+}
+
+/// Returns the standard errors of all planes.
+pub(super) fn errors(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> Vec<PlaneError> {
+    let inflation = inflation(corners, members, fits);
+    let steps = steps(corners.at);
+    let each = |((fit, variance), of): ((&PlaneEstimate, f64), &Vec<u32>)| {
+        let (low, high) = bounds(of.iter().map(|&v| corners.at[v as usize]));
+        let count = fit.count as f64;
+        // What rounding added to the noise is left out.
+        let own = fit.plane.normal.abs().dot(fit.plane.normal.abs() * steps * steps) / 12.0;
+        let before = (variance - own).max(0.0).sqrt();
+        let common = alike(steps, fit.plane.normal, high - low, before, count);
+        // A fit follows correlated noise more, so that less of it is left.
+        let left = (count - 3.0).max(1.0) / (count - 3.0 * inflation).max(MOST_FOLLOWED * count).max(1.0);
+        let one = (variance * inflation * left.max(1.0)).max(common * count);
+        PlaneError {
+            middle: fit.middle,
+            axes: fit.axes,
+            distance: (one / count).sqrt(),
+            tilts: fit.moments.map(|moment| (one / moment).sqrt()),
+        }
+    };
+    fits.iter().zip(variances(fits)).zip(&members.of).map(each).collect()
+}

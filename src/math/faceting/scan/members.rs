@@ -1,0 +1,177 @@
+//! The corners of a scan that lie on each facet of a solid, without regard to their noise.
+//!
+//! A corner is judged by its place along the facet, not by its distance from it, so that its noise is not selected: the mean
+//! distance of the corners that noise moves beyond both planes of an edge is not 0. Corners so near to an edge that noise
+//! hides on which side they belong are left out. Where the scan has corners on the edges, as a divided model has, they count
+//! for both facets.
+
+use super::patches::Corners;
+use super::points::{PlaneEstimate, PointSums};
+use crate::math::faceting::deviation::outermost;
+use crate::math::{Plane, Polytope};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Corners within this many standard deviations of an edge may belong to either facet.
+const BORDER: f64 = 4.0;
+
+/// A corner farther from its plane than this many standard deviations does not lie on the facet.
+pub(super) const OUTLIER: f64 = 6.0;
+
+/// Corners lie on the edges of the stone where their number near the edges is this many times what an even spread gives.
+const CROWDED: f64 = 2.0;
+
+/// Corners can be told from those on the edges where their distance is this many standard deviations of the noise.
+const APART: f64 = 8.0;
+
+/// An edge of a facet, in the plane of the facet.
+struct Border {
+    /// The direction out of the facet, along its plane.
+    outward: DVec3,
+    offset: f64,
+}
+
+/// The facets of a solid, with their borders.
+struct Outlined {
+    plane: Plane,
+    noise: f64,
+    borders: Vec<Border>,
+}
+
+impl Outlined {
+    /// Returns how far a point lies beyond the outline, along the plane; negative inside.
+    fn beyond(&self, point: DVec3) -> f64 {
+        let foot = point - self.plane.distance(point) * self.plane.normal;
+        self.borders.iter().map(|b| b.outward.dot(foot) - b.offset).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// The corners of each facet.
+pub(super) struct Members {
+    /// The corners whose noise about a facet is known, of each facet.
+    pub of: Vec<Vec<u32>>,
+    /// Whether each corner, and each triangle beside it, lies on the solid except for noise.
+    pub explained: Vec<bool>,
+    /// The greatest distance of a corner from the solid's surface.
+    pub deviation: f64,
+    /// Whether the scan has corners on the edges of the solid, so that its triangles lie on one facet each.
+    pub are_shared: bool,
+}
+
+impl Members {
+    /// Finds the corners of each facet of a solid, for noise with these standard deviations about the facets' planes.
+    pub fn of(corners: &Corners, solid: &Polytope, noises: &[f64]) -> Self {
+        let facets = outlined(solid, noises);
+        let planes: Vec<Plane> = solid.planes().collect();
+        let lies: Vec<(usize, f64)> = corners.at.par_iter().map(|&v| outermost(&planes, v)).collect();
+        let are_shared = has_corners_on_edges(corners, solid, &facets, &lies);
+        let is_near = |facet: &Outlined, v: DVec3| facet.plane.distance(v).abs() <= OUTLIER * facet.noise;
+        let of = if are_shared {
+            let on = |facet: &Outlined| {
+                let lies = |v: &DVec3| is_near(facet, *v) && facet.beyond(*v) <= BORDER * facet.noise;
+                (0..).zip(corners.at).filter(|(_, v)| lies(v)).map(|(v, _)| v).collect()
+            };
+            facets.par_iter().map(on).collect()
+        } else {
+            let inside = |(v, &(f, _)): (usize, &(usize, f64))| {
+                let (facet, at) = (&facets[f], corners.at[v]);
+                (is_near(facet, at) && facet.beyond(at) <= -BORDER * facet.noise).then_some((f, v as u32))
+            };
+            let found: Vec<(usize, u32)> = lies.par_iter().enumerate().filter_map(inside).collect();
+            let mut of = vec![vec![]; facets.len()];
+            found.into_iter().for_each(|(f, v)| of[f].push(v));
+            of
+        };
+        let mut explained: Vec<bool> =
+            lies.iter().map(|&(f, d)| d.abs() <= OUTLIER * facets[f].noise).collect();
+        if are_shared {
+            // All corners of a narrow facet may lie on its edges, and so on its neighbours; then its triangles lie deep.
+            let deep = |t: &&[u32; 3]| {
+                let middle = t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
+                let (f, distance) = outermost(&planes, middle);
+                distance < -OUTLIER * facets[f].noise
+            };
+            let deep: Vec<&[u32; 3]> = corners.triangles.par_iter().filter(deep).collect();
+            deep.into_iter().flatten().for_each(|&v| explained[v as usize] = false);
+        }
+        let deviation = lies.iter().map(|(_, d)| d.abs()).fold(0.0, f64::max);
+        Self { of, explained, deviation, are_shared }
+    }
+
+    /// Returns the sums over the corners of each facet.
+    pub fn sums(&self, corners: &Corners) -> Vec<PointSums> {
+        let sums = |members: &Vec<u32>| {
+            let mut sums =
+                PointSums::about(members.first().map_or(corners.inside, |&v| corners.at[v as usize]));
+            members.iter().for_each(|&v| sums.add(corners.at[v as usize]));
+            sums
+        };
+        self.of.par_iter().map(sums).collect()
+    }
+}
+
+fn outlined(solid: &Polytope, noises: &[f64]) -> Vec<Outlined> {
+    let facet = |(f, &noise): (&crate::math::Facet, &f64)| {
+        let at: Vec<DVec3> = solid.corners(f).collect();
+        let border = |k: usize| {
+            let (from, to) = (at[k], at[(k + 1) % at.len()]);
+            let outward = (to - from).cross(f.plane.normal).try_normalize()?;
+            Some(Border { outward, offset: outward.dot(from) })
+        };
+        Outlined { plane: f.plane, noise, borders: (0..at.len()).filter_map(border).collect() }
+    };
+    solid.facets().iter().zip(noises).map(facet).collect()
+}
+
+/// Returns whether the scan has corners on the edges of the stone, which can be told from others.
+fn has_corners_on_edges(
+    corners: &Corners,
+    solid: &Polytope,
+    facets: &[Outlined],
+    lies: &[(usize, f64)],
+) -> bool {
+    // Not the greatest: planes that are still wrong leave much more than noise.
+    let mut noises: Vec<f64> = facets.iter().map(|f| f.noise).collect();
+    noises.sort_by(f64::total_cmp);
+    let noise = noises[noises.len() / 2];
+    if corners.spacing < APART * noise {
+        return false;
+    }
+    let near = lies
+        .iter()
+        .zip(corners.at)
+        .filter(|((f, _), v)| facets[*f].beyond(**v).abs() <= BORDER * noise)
+        .count();
+    let around: f64 = solid
+        .facets()
+        .iter()
+        .map(|f| {
+            let at: Vec<DVec3> = solid.corners(f).collect();
+            (0..at.len()).map(|k| at[k].distance(at[(k + 1) % at.len()])).sum::<f64>()
+        })
+        .sum();
+    let even = corners.at.len() as f64 * around * BORDER * noise / solid.surface_area();
+    near as f64 > CROWDED * even
+}
+
+/// Returns the standard deviation of the noise about each plane: from the median of its own corners' distances where these
+/// are many and deviate more than most, and otherwise from the median of all.
+pub(super) fn noises(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> Vec<f64> {
+    /// A median of fewer corners is too uncertain.
+    const MANY: usize = 30;
+    /// The median of the size of a number that is distributed normally, in standard deviations.
+    const MEDIAN: f64 = 0.674_489_75;
+    let sizes = |(fit, members): (&PlaneEstimate, &Vec<u32>)| -> Vec<f64> {
+        members.iter().map(|&v| fit.plane.distance(corners.at[v as usize]).abs()).collect()
+    };
+    let each: Vec<Vec<f64>> = fits.par_iter().zip(&members.of).map(sizes).collect();
+    let freedom = |sizes: &Vec<f64>| (sizes.len() as f64 / (sizes.len() as f64 - 3.0).max(0.5)).sqrt();
+    let median = |mut sizes: Vec<f64>| {
+        let middle = sizes.len() / 2;
+        if sizes.is_empty() { 0.0 } else { *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN }
+    };
+    let scaled = each.iter().filter(|sizes| sizes.len() > 3);
+    let common = median(scaled.flat_map(|sizes| sizes.iter().map(|d| d * freedom(sizes))).collect());
+    let own = |sizes: Vec<f64>| if sizes.len() < MANY { common } else { median(sizes).max(common) };
+    each.into_par_iter().map(own).collect()
+}

@@ -1,0 +1,87 @@
+//! Divides facets that two planes fit far better than one.
+
+use super::growth::NEAR;
+use super::members::Members;
+use super::patches::Corners;
+use super::points::{PlaneEstimate, PointSums};
+use crate::math::Plane;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// A facet is divided where the squared distances from one plane exceed those from two by more than this many variances of the
+/// noise, and by 3 ln n for n corners. It is more than [`merge`](super::merge) joins, so that facets are not divided and joined in
+/// turn.
+const EXCESS: f64 = 40.0;
+
+/// The number of directions in which a facet is divided, and of places along each.
+const DIRECTIONS: u32 = 12;
+const PLACES: usize = 16;
+
+/// The least number of corners of a part.
+const LEAST: usize = 6;
+
+/// Returns the planes of the two parts of each facet that is divided. `inflation` is that of the noise's variance by its
+/// correlation.
+pub(super) fn split(
+    corners: &Corners,
+    members: &Members,
+    fits: &[PlaneEstimate],
+    inflation: f64,
+) -> Vec<Option<[Plane; 2]>> {
+    members.of.par_iter().zip(fits).map(|(of, fit)| parts(corners, of, fit, inflation)).collect()
+}
+
+/// The two parts of a facet that is divided.
+struct Parts {
+    /// The fall of the squared distances, in variances of the noise.
+    excess: f64,
+    /// The variance of the noise.
+    variance: f64,
+    fits: [PlaneEstimate; 2],
+}
+
+/// Returns the planes of the two parts into which a facet is divided best; `None` where one plane fits as well.
+fn parts(corners: &Corners, of: &[u32], fit: &PlaneEstimate, inflation: f64) -> Option<[Plane; 2]> {
+    let best = (0..DIRECTIONS).filter_map(|k| {
+        let turn = f64::from(k) / f64::from(DIRECTIONS) * std::f64::consts::PI;
+        along(corners, of, fit, fit.axes[0] * turn.cos() + fit.axes[1] * turn.sin())
+    });
+    let best = best.max_by(|a, b| a.excess.total_cmp(&b.excess))?;
+    let is_better = best.excess / inflation > EXCESS + 3.0 * (of.len() as f64).ln();
+    let near = NEAR * best.variance.sqrt();
+    let are_facets = || best.fits.iter().all(|fit| corners.is_outermost(fit, near));
+    (is_better && are_facets()).then(|| best.fits.map(|fit| fit.plane))
+}
+
+/// Divides a facet across a direction at the best place.
+fn along(corners: &Corners, of: &[u32], fit: &PlaneEstimate, direction: DVec3) -> Option<Parts> {
+    if of.len() < 2 * LEAST {
+        return None;
+    }
+    let mut sorted: Vec<(f64, u32)> =
+        of.iter().map(|&v| (corners.at[v as usize].dot(direction), v)).collect();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let chunk = sorted.len().div_ceil(PLACES);
+    let sums: Vec<PointSums> = sorted
+        .chunks(chunk)
+        .map(|chunk| {
+            let mut sums = PointSums::about(fit.middle);
+            chunk.iter().for_each(|&(_, v)| sums.add(corners.at[v as usize]));
+            sums
+        })
+        .collect();
+    let joined = |parts: &[PointSums]| {
+        let sums = parts.iter().fold(PointSums::about(fit.middle), |sum, part| sum.with(part));
+        sums.fit(corners.inside).filter(|_| sums.count >= LEAST)
+    };
+    let divided = (1..sums.len()).filter_map(|place| {
+        let (one, other) = (joined(&sums[..place])?, joined(&sums[place..])?);
+        // Both planes lie over the other part: the edge between bends outward.
+        let is_convex = one.plane.distance(other.middle) < 0.0 && other.plane.distance(one.middle) < 0.0;
+        let rest = one.squares + other.squares;
+        let variance = rest / (of.len() as f64 - 6.0);
+        let excess = (fit.squares - rest) / variance;
+        is_convex.then_some(Parts { excess, variance, fits: [one, other] })
+    });
+    divided.max_by(|a, b| a.excess.total_cmp(&b.excess))
+}

@@ -1,0 +1,198 @@
+//! Scans of a brilliant whose facets are off by known angles: noise must change nothing but the standard errors.
+
+use crate::common::scans::{Corners, Scan, flawed};
+use brillianteer::cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
+use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+use brillianteer::math::faceting::{
+    Face, Faceted, NotFaceted, PlaneError, SurfaceKind, faceted_hull, facets,
+};
+use brillianteer::math::{Plane, Polytope};
+use brillianteer::measure::facet_deviations;
+use brillianteer::scene::Stone;
+use glam::{DQuat, DVec3};
+
+/// Facets are named the same where their normals differ by less than this, radians: 3.4 degrees. The narrow facets of the girdle
+/// are known least.
+const SAME: f64 = 0.06;
+
+/// The number of standard errors that 95 % of normally distributed errors stay within.
+const NINETY_FIVE: f64 = 1.96;
+
+/// The departures from symmetry, degrees.
+const SLOPE_DEG: f64 = 0.15;
+const AZIMUTH_DEG: f64 = 0.4;
+
+fn even() -> Vec<Plane> {
+    let cut = RoundBrilliant {
+        table: 56.0,
+        crown: Crown::Angle(34.5),
+        pavilion: Pavilion::Angle(40.8),
+        star_length: 50.0,
+        lower_half: LowerHalf::Radial(77.0),
+        girdle_thickness: 3.0,
+        girdle_facets: 16,
+        culet: 0.0,
+    };
+    cut.facets().unwrap().into_iter().map(|(_, plane)| plane).collect()
+}
+
+fn uneven() -> Vec<Plane> {
+    flawed(&even(), SLOPE_DEG, AZIMUTH_DEG, 5)
+}
+
+fn read(scan: &Scan, stone: &[Plane]) -> Option<Box<Faceted>> {
+    match facets(scan.of(stone).mend().unwrap().surface) {
+        SurfaceKind::Convex(found) => Some(found),
+        SurfaceKind::Concave(_) => None,
+    }
+}
+
+fn found(scan: &Scan, stone: &[Plane]) -> Box<Faceted> {
+    read(scan, stone).unwrap_or_else(|| panic!("no facets: {scan:?}"))
+}
+
+fn stone_of(found: &Faceted, evening: Evening) -> FromMesh {
+    from_mesh(found, Up::Given(DVec3::Z), evening).unwrap()
+}
+
+/// Returns the tilts and the distance by which a true plane lies off a found one, in standard errors.
+fn in_errors(face: &Face, truth: &Plane, error: &PlaneError) -> [f64; 3] {
+    let tilt = |k: usize| (truth.normal - face.plane.normal).dot(error.axes[k]) / error.tilts[k];
+    [tilt(0), tilt(1), (truth.distance(error.middle) - face.plane.distance(error.middle)) / error.distance]
+}
+
+/// Scans of several kinds, each with every fault that it names.
+fn kinds(triangles: u32, noise_um: f64, seed: u64) -> Vec<(&'static str, Scan)> {
+    let plain = Scan::meshed(triangles, noise_um, seed);
+    let turn = DQuat::from_axis_angle(DVec3::new(0.48, 0.6, 0.64), 2.0);
+    vec![
+        ("plain", plain),
+        ("more noise along z", Scan { noise_um: noise_um * DVec3::new(0.5, 1.0, 2.0), ..plain }),
+        ("fewer corners", Scan { kept: 0.5, ..plain }),
+        ("rounded to 1 um", Scan { step_um: 1.0, ..plain }),
+        ("rounded to 10 um", Scan { step_um: 10.0, ..plain }),
+        ("correlated noise", Scan { blurs: 1, ..plain }),
+        ("turned", Scan { turn, ..plain }),
+        ("corners beside the edges", Scan { corners: Corners::Radial(triangles), ..plain }),
+    ]
+}
+
+/// The facets that are found in scans, and how far they are off.
+#[derive(Default)]
+struct Tally {
+    inside: [usize; 3],
+    count: usize,
+}
+
+impl Tally {
+    /// Compares the found facets with the true ones, each of which must be there once.
+    fn add(&mut self, found: &Faceted, stone: &[Plane], name: &str) {
+        assert_eq!(found.faces.len(), stone.len(), "{name}");
+        for truth in stone {
+            let off = |face: &&Face| (face.plane.normal - truth.normal).length();
+            let face = found.faces.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+            assert!(off(&face) < SAME, "{name}: a facet is {} off", off(&face));
+            let moved = Plane::new(truth.normal, -truth.distance(found.centre));
+            let error = face.error.unwrap_or_else(|| panic!("{name}: no standard errors"));
+            let off = in_errors(face, &moved, &error);
+            self.count += 1;
+            (0..3).for_each(|k| self.inside[k] += usize::from(off[k].abs() < NINETY_FIVE));
+        }
+    }
+
+    /// Returns the parts of the errors that stay within 1.96 standard errors, percent.
+    fn coverage(&self) -> [f64; 3] {
+        self.inside.map(|inside| 100.0 * inside as f64 / self.count as f64)
+    }
+}
+
+#[test]
+fn every_facet_is_found_and_known_to_its_standard_errors_in_scans_of_all_kinds() {
+    let stone = uneven();
+    let mut all = Tally::default();
+    for seed in 1..=2 {
+        for (name, scan) in kinds(24_000, 0.8, seed) {
+            let found = found(&scan, &stone);
+            let mut tally = Tally::default();
+            tally.add(&found, &scan.planes(&stone), name);
+            let volume = Polytope::from_planes(&scan.planes(&stone)).unwrap().volume();
+            assert!((found.polytope.volume() / volume - 1.0).abs() < 1e-3, "{name}");
+            (0..3).for_each(|k| all.inside[k] += tally.inside[k]);
+            all.count += tally.count;
+            assert!(tally.coverage().iter().all(|c| *c > 80.0), "{name}: {:?}", tally.coverage());
+        }
+    }
+    assert!(all.coverage().iter().all(|c| (93.0..97.5).contains(c)), "{:?} of {}", all.coverage(), all.count);
+}
+
+#[test]
+fn standard_errors_cover_at_any_noise_and_number_of_triangles() {
+    let stone = uneven();
+    for (triangles, noise_um) in [(2_000, 0.3), (2_000, 2.0), (8_000, 0.5), (8_000, 2.0), (30_000, 2.0)] {
+        let mut tally = Tally::default();
+        let seeds = if triangles > 10_000 { 1..=2 } else { 1..=6 };
+        for seed in seeds {
+            let scan = Scan::meshed(triangles, noise_um, seed);
+            tally.add(&found(&scan, &stone), &scan.planes(&stone), &format!("{triangles} at {noise_um} um"));
+        }
+        let least = if triangles > 10_000 { 90.0 } else { 92.0 };
+        assert!(
+            tally.coverage().iter().all(|c| (least..98.5).contains(c)),
+            "{triangles}: {:?}",
+            tally.coverage()
+        );
+    }
+}
+
+#[test]
+fn an_uneven_stone_stays_as_found_and_an_even_one_is_evened_unless_it_is_to_stay() {
+    for (triangles, noise_um) in [(2_000, 0.5), (2_000, 2.0), (30_000, 0.8), (30_000, 1.2)] {
+        let scan = Scan::meshed(triangles, noise_um, 3);
+        let stone = uneven();
+        let uneven = stone_of(&found(&scan, &stone), Evening::WhereLikely);
+        assert_eq!((uneven.evened.turns, uneven.evened.mirror), (1, None), "{triangles} at {noise_um} um");
+        let even = found(&scan, &even());
+        let evened = stone_of(&even, Evening::WhereLikely);
+        assert!(evened.evened.turns == 8 && evened.evened.mirror.is_some(), "{triangles} at {noise_um} um");
+        let kept = stone_of(&even, Evening::AsFound);
+        assert_eq!((kept.evened.turns, kept.evened.mirror), (1, None));
+        let spread = |made: &FromMesh| {
+            facet_deviations(&Stone::new(&made.facets).unwrap()).unwrap()[0].azimuth_spread_deg
+        };
+        assert!(spread(&evened) < 1e-9 && spread(&kept) > 1e-4, "{} {}", spread(&evened), spread(&kept));
+    }
+}
+
+#[test]
+fn deviations_of_facets_are_those_of_the_stone_within_their_errors() {
+    let stone = uneven();
+    let truth = facet_deviations(&Stone::new(&named(&stone)).unwrap()).unwrap();
+    let scan = Scan::meshed(30_000, 1.0, 2);
+    let made = stone_of(&found(&scan, &stone), Evening::WhereLikely);
+    assert_eq!(made.errors.len(), made.facets.len());
+    let known = facet_deviations(&Stone::new(&made.facets).unwrap()).unwrap();
+    for (truth, known) in truth.iter().zip(&known) {
+        let error = |facet: &str| made.errors.iter().find(|e| e.facet == facet).unwrap();
+        let azimuth = error(&known.worst_azimuth.facet).azimuth_deg.unwrap();
+        let slope = error(&known.worst_slope.facet).slope_deg;
+        assert!(azimuth > 1e-4 && azimuth < 0.05 && slope > 1e-4 && slope < 0.05, "{azimuth} {slope}");
+        // A spread has the errors of its two ends, and of the median.
+        let spreads = (truth.azimuth_spread_deg - known.azimuth_spread_deg).abs();
+        assert!(spreads < 6.0 * azimuth, "{}: {spreads} {azimuth}", truth.class);
+        let spreads = (truth.slope_spread_deg - known.slope_spread_deg).abs();
+        assert!(spreads < 6.0 * slope, "{}: {spreads} {slope}", truth.class);
+        assert!(known.azimuth_spread_deg > 0.3, "{}: {}", truth.class, known.azimuth_spread_deg);
+    }
+}
+
+fn named(planes: &[Plane]) -> Vec<(String, Plane)> {
+    planes.iter().enumerate().map(|(k, plane)| (format!("facet {k}"), *plane)).collect()
+}
+
+#[test]
+fn noise_that_hides_facets_is_no_faceted_stone() {
+    let scan = Scan::meshed(4_000, 40.0, 1);
+    assert!(read(&scan, &even()).is_none());
+    let surface = scan.of(&even()).mend().unwrap().surface;
+    assert_eq!(faceted_hull(surface), Err(NotFaceted::Noisy));
+}
