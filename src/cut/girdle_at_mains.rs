@@ -19,7 +19,7 @@ const REACHES: f64 = 1e-5;
 const MANY: usize = 36;
 
 /// A stone whose girdle is measured.
-pub(super) struct Girdle<'a> {
+pub(super) struct MeasuredGirdle<'a> {
     pub stone: &'a Polytope,
     /// The middle of the outline.
     pub middle: DVec2,
@@ -28,7 +28,7 @@ pub(super) struct Girdle<'a> {
     pub radius: Option<f64>,
 }
 
-impl Girdle<'_> {
+impl MeasuredGirdle<'_> {
     /// Returns the heights z of the girdle's edges at its hills, the lower first; `None` without upright facets, or where no
     /// leaning facets reach them, or where the girdle has no thickness between its hills.
     ///

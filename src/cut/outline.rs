@@ -1,7 +1,7 @@
 //! The measures of a stone of any cut: length, width, the girdle's edges, depths and table.
 
 use super::facet_zones::FacetZones;
-use super::girdle_at_mains::Girdle;
+use super::girdle_at_mains::MeasuredGirdle;
 use crate::math::{Calipers, Edge, Facet, Polytope, SolidRef, bounds, hull};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -79,7 +79,7 @@ impl Outline {
         let (girdle_bottom, girdle_top) = girdle(stone, SAME_CORNER * width);
         let facet = table(stone);
         let radius = round_diameter(&outline, middle, width).map(|diameter| diameter / 2.0);
-        let at_mains = Girdle { stone, middle, width, radius }.edges();
+        let at_mains = MeasuredGirdle { stone, middle, width, radius }.edges();
         let flat = |facet| hull(stone.corners(facet).map(DVec3::truncate).collect());
         let table = facet.and_then(|facet| Calipers::of_stone(&flat(facet)));
         Self {

@@ -116,8 +116,8 @@ fn put(content: &mut (impl Read + Seek), file: &mut File) -> io::Result<()> {
 
 #[cfg(all(test, unix))]
 mod tests {
-    use super::super::atomic::{WriteError, write};
     use super::*;
+    use crate::io::atomic::{WriteError, write};
     use std::os::unix::fs::{MetadataExt, PermissionsExt};
 
     fn put_text(path: &Path, text: &str) -> Result<(), WriteError> {

@@ -78,7 +78,7 @@ pub(super) struct Sheared {
 }
 
 /// A triangle that a ray meets: its place in the order of the hierarchy, and the distance.
-pub(super) type Found = (usize, f64);
+pub(super) type FoundTriangle = (usize, f64);
 
 impl WideTree {
     /// Gathers the boxes of a binary hierarchy in groups of four, with its triangles in the order in which the boxes
@@ -112,13 +112,13 @@ impl WideTree {
 
     /// Finds the first triangle that a ray meets at a distance above `after`, among those for whose places `keep` is
     /// true. Of several triangles at the same distance, the one with the first place is returned.
-    pub fn nearest(&self, ray: &Sheared, after: f64, keep: impl Fn(usize) -> bool) -> Option<Found> {
+    pub fn nearest(&self, ray: &Sheared, after: f64, keep: impl Fn(usize) -> bool) -> Option<FoundTriangle> {
         ARCH.dispatch(Nearest { tree: self, ray, after, along: None, keep })
     }
 
     /// Finds the first triangle that a ray meets at a distance above `after`, as [`nearest`](Self::nearest) does, among
     /// those whose normals have a positive part along a vector.
-    pub fn nearest_along(&self, ray: &Sheared, after: f64, along: DVec3) -> Option<Found> {
+    pub fn nearest_along(&self, ray: &Sheared, after: f64, along: DVec3) -> Option<FoundTriangle> {
         if self.normals.is_empty() {
             return None;
         }
@@ -282,10 +282,10 @@ impl Pending {
 }
 
 impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
-    type Output = Option<Found>;
+    type Output = Option<FoundTriangle>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Option<Found> {
+    fn with_simd<S: Simd>(self, simd: S) -> Option<FoundTriangle> {
         let Self { tree, ray, after, along, keep } = self;
         let (mut best, mut far) = (None, f64::INFINITY);
         let mut pending =

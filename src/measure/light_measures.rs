@@ -6,9 +6,10 @@
 
 use super::exit_sight::{ExitSight, brightness, seen_apart};
 use super::eye_grid::{EyeCell, rms_contrast};
-use super::face_patterns::{PatternMeasures, PatternSettings};
+use super::face_patterns::PatternMeasures;
 use super::interval::Interval;
 use super::measure_name::MeasureName;
+use super::pattern_settings::PatternSettings;
 use super::scintillation::Scintillation;
 use crate::math::Polytope;
 use crate::scene::DomeLight;

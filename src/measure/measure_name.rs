@@ -1,8 +1,8 @@
 //! The names of measures.
 
-use super::face_patterns::PatternSettings;
 use super::interval::Interval;
 use super::light_measures::{LightMeasures, MeasureSettings};
+use super::pattern_settings::PatternSettings;
 use crate::scene::DomeLight;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;

@@ -20,6 +20,7 @@ mod measure_name;
 pub mod measure_words;
 mod measured;
 mod octant_pattern;
+mod pattern_settings;
 mod sampled;
 mod scintillation;
 mod virtual_facets;
@@ -27,7 +28,7 @@ mod virtual_facets;
 pub use brilliant_proportions::brilliant_proportions;
 pub use derivatives::MeasureDerivatives;
 pub use estimated::{Estimate, by_beams_and_rays};
-pub use face_patterns::{EYE_RESOLVES_MM, PatternMeasures, PatternSettings, ROCK_DEG, SHAPE_IS_SEEN};
+pub use face_patterns::PatternMeasures;
 pub use face_up_size::FaceUpSize;
 pub use facet_deviations::{ClassDeviations, FacetDeviation, NotEightfold, facet_deviations};
 pub use figures::{Figures, Zones, by_beams, by_summed_beams};
@@ -42,6 +43,7 @@ pub use light_measures::{
 };
 pub use measure_name::{MeasureName, MeasureNeeds, NoMeasure};
 pub use measured::{Bounds, LATTICE, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};
+pub use pattern_settings::{EYE_RESOLVES_MM, PatternSettings, ROCK_DEG, SHAPE_IS_SEEN};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;
 pub use sampled::by_rays;

@@ -3,8 +3,8 @@
 
 use super::exit_sight::brightness;
 use super::eye_grid::EyeGrid;
-use super::face_patterns::PatternSettings;
 use super::interval::Interval;
+use super::pattern_settings::PatternSettings;
 use crate::scene::View;
 use crate::trace::beam::Beams;
 use glam::{DQuat, DVec2};

@@ -1,7 +1,8 @@
 //! The plan of an export: its files, and the view and turn of each picture.
 
 use super::export_sheet::SheetChoice;
-use super::framing::{Framing, FramingFit};
+use super::framing::Framing;
+use super::framing_fit::FramingFit;
 use super::scene_fit::SceneRoom;
 use crate::app::shows::Shows;
 use crate::app::studio::Shot;

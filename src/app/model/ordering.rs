@@ -119,7 +119,7 @@ impl Orders<'_> {
     fn plain(&self, shows: Shows, view: View, specimen: Arc<Specimen>) -> Shot {
         let Model { document, workspace, session } = self.model;
         let settings = &document.work.settings;
-        let fit = super::framing::FramingFit::reaching(1.0);
+        let fit = super::framing_fit::FramingFit::reaching(1.0);
         Shot {
             document: session.begun,
             marks: DrawnMarks::default(),

@@ -72,7 +72,7 @@ mod tests {
     use super::*;
     use crate::app::model::action::FileAction;
     use crate::app::model::dialog::Then;
-    use crate::app::model::framing::FramingFit;
+    use crate::app::model::framing_fit::FramingFit;
     use crate::app::model::motion::Motion;
     use crate::app::model::update;
     use crate::app::model::workspace::Workspace;

@@ -132,7 +132,7 @@ mod tests {
     use crate::app::liquid::Liquid;
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
-    use crate::app::model::framing::FramingFit;
+    use crate::app::model::framing_fit::FramingFit;
     use crate::app::model::motion::{Motion, WaveCache};
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};

@@ -138,7 +138,7 @@ mod tests {
     use crate::app::liquid::Liquid;
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
-    use crate::app::model::framing::FramingFit;
+    use crate::app::model::framing_fit::FramingFit;
     use crate::app::studio::effort::{Grain, Refinement};
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};

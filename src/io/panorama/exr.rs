@@ -2,7 +2,7 @@
 //! channels are left out.
 
 use super::exr_layer::{ColourLayer, Colours, OfPart};
-use super::{Raw, check_size, damaged, warn_of_primaries};
+use super::shared::{Raw, check_size, damaged, warn_of_primaries};
 use crate::io::file_error::Fault;
 use crate::scene::Panorama;
 use exr::error::Error;

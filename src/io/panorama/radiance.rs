@@ -4,7 +4,7 @@
 //! Source: G. Ward, *Radiance File Formats*, and `color.h` and `resolu.h` of Radiance, for the meaning of the header.
 
 use super::raster::{decoder_limits, light};
-use super::{Raw, SAME_PLACE, check_size, damaged, warn_of_primaries};
+use super::shared::{Raw, SAME_PLACE, check_size, damaged, warn_of_primaries};
 use crate::io::file_error::Fault;
 use crate::optics::SRGB_FROM_XYZ;
 use crate::scene::Panorama;

@@ -1,6 +1,6 @@
 //! Reads PNG and JPEG.
 
-use super::{LARGEST, Raw, check_size, damaged};
+use super::shared::{LARGEST, Raw, check_size, damaged};
 use crate::io::file_error::Fault;
 use crate::optics::linear_from_encoded;
 use crate::scene::Panorama;
