@@ -71,7 +71,7 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
     let _ = writeln!(text, "Audit");
     let mut count = |name: &str, [before, after]: [usize; 2]| {
         let by = after as i64 - before as i64;
-        let _ = writeln!(text, "  {name:<38}{before:>12}{after:>18}{by:>+15}");
+        let _ = writeln!(text, "  {name:<38}{before:>12}{after:>18}{:>15}", signed(by as f64, 0));
     };
     count("findings", [before, after]);
     outcome.findings().into_iter().for_each(|(kind, counts)| count(kind.name(), counts));

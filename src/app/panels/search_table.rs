@@ -94,7 +94,7 @@ fn numbers(model: &Model, report: &SearchReport, ui: &mut Ui) {
     }
     let [before, after] = report.outcome.audits.each_ref().map(|audit| audit.findings.len());
     let by = after as i64 - before as i64;
-    line(ui, "findings of the audit", [before.to_string(), after.to_string(), format!("{by:+}")]);
+    line(ui, "findings of the audit", [before.to_string(), after.to_string(), signed(by as f64, 0)]);
 }
 
 fn line(ui: &mut Ui, name: &str, texts: [String; 3]) {

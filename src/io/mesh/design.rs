@@ -123,7 +123,7 @@ fn evened(symmetry: &Symmetry) -> Option<String> {
     let parts: Vec<String> = fold.into_iter().chain(symmetry.mirror.map(|_| "mirror".to_owned())).collect();
     (!parts.is_empty()).then(|| {
         format!(
-            "it was evened to {}, which it has except for its noise; --as-found keeps the facets as found",
+            "it was evened to {}, which it has except for its noise; read as found it would keep its facets as they are",
             parts.join(", ")
         )
     })
