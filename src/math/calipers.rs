@@ -136,6 +136,12 @@ impl Calipers {
         let cost = |found: &Self| found.width.powi(2) / found.length;
         let least = narrow.iter().map(cost).fold(f64::INFINITY, f64::min);
         let equal = || narrow.iter().filter(|found| cost(found) <= least * (1.0 + EQUAL));
+        Self::least_of(equal)
+    }
+
+    /// Returns the least width and the greatest length of measurements that count as equal, so that rounding, which decides
+    /// between their directions, does not decide between their sizes.
+    fn least_of<'a, I: Iterator<Item = &'a Self>>(equal: impl Fn() -> I) -> Option<Self> {
         let width = equal().map(|found| found.width).fold(f64::INFINITY, f64::min);
         let length = equal().map(|found| found.length).fold(0.0, f64::max);
         Some(Self { width, length, ..*equal().max_by(Self::nearer_to_x)? })
@@ -165,8 +171,11 @@ impl Calipers {
         let measured: Vec<(Self, f64)> =
             measured.map(|(found, unlike)| (found, TRUER * found.width + unlike)).collect();
         let lowest = measured.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
-        let equal = measured.iter().filter(|(_, cost)| *cost <= lowest + EQUAL * least);
-        equal.map(|(found, _)| found).max_by(Self::nearer_to_x).copied()
+        let equal = || {
+            let lowest = measured.iter().filter(|(_, cost)| *cost <= lowest + EQUAL * least);
+            lowest.map(|(found, _)| found)
+        };
+        Self::least_of(equal)
     }
 }
 
