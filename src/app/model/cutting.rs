@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn a_step_is_a_tier_that_is_cut_with_the_angle_of_the_machine() {
         let found = step(-42.5);
-        assert_eq!((found.place, found.name.as_str(), found.angle), (1, "pavilion 2", 42.5));
+        assert_eq!((found.place, found.name.as_str(), found.angle), (1, "P2", 42.5));
         assert_eq!((found.indices, found.instructions.as_str()), (vec![0.0, 24.0], "Meet P1"));
         assert_eq!(step(-137.5).angle, 42.5);
     }

@@ -2,7 +2,7 @@
 //! scene the ball around all its stones and its metal.
 
 use super::document::Document;
-use super::framing::{CENTRED, FramingFit, OUTGROWN, SHRUNK, SLACK};
+use super::framing_fit::{CENTRED, FramingFit, OUTGROWN, SHRUNK, SLACK};
 use crate::math::Ball;
 use crate::scene::{Companions, Pose, Projection, Specimen, View};
 use glam::DVec3;
@@ -189,8 +189,7 @@ mod tests {
         let camera = Camera::reaching(&shot.view, scene.reach());
         let map = shot.film.pixels_from_image(DMat2::IDENTITY);
         let size = DVec2::from(shot.film.size.map(f64::from));
-        // Of the many corners of metal, a part is enough.
-        let seen = scene.vertices().step_by(if scene.metals.is_empty() { 1 } else { 13 }).map(|at| {
+        let seen = scene.vertices().map(|at| {
             let (at, _) = camera.project(at).expect("all bodies are in front of the eye");
             map.transform_point2(at) / size
         });

@@ -269,10 +269,11 @@ fn a_world_that_is_being_drawn_is_shown_coarsely_at_once_and_the_status_line_say
     (settings.wavelengths, settings.background) = (3, Some("sunset".to_owned()));
     bench.harness.run_steps(2);
     assert!(bench.harness.query_by_label_contains("done ·").is_none(), "an order is on its way");
-    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
-    // The whole world takes many times as long as a coarse one with a picture before it.
+    bench.wait(|editor| editor.studio.preparing().is_some());
     assert_eq!(bench.editor().studio.preparing().as_deref(), Some("drawing the sunset…"));
     assert!(bench.harness.query_by_label_contains("drawing the sunset… ·").is_some());
+    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
+    // The first picture has a world behind it, which is the coarse one unless the whole one is drawn by then.
     let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
     let corner = shown.taken.image.pixels[0];
     assert!(shown.grade == Grade::Rough && corner.a() == 255 && corner.b() > 0, "{corner:?}");

@@ -39,10 +39,15 @@ fn quick(bench: &mut Bench) {
     bench.click("Vary Crown angle");
 }
 
-/// Opens a design that is easy to improve, begins a search that takes long, and waits for a better design.
-fn begun() -> Bench {
+/// Opens a design that is easy to improve.
+fn opened_steep_deep() -> Bench {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts/steep-deep.toml");
-    let mut bench = opened(Setup { file: Some(file), ..Setup::default() });
+    opened(Setup { file: Some(file), ..Setup::default() })
+}
+
+/// Begins a search that takes long in a design that is easy to improve, and waits for a better design.
+fn begun() -> Bench {
+    let mut bench = opened_steep_deep();
     pick(&mut bench, "Effort", "thorough");
     bench.click("All");
     bench.click("Start");
@@ -99,7 +104,7 @@ fn a_search_shows_its_best_in_the_design_says_what_it_won_and_is_one_step_of_und
 
 #[test]
 fn the_outcome_is_taken_back_by_its_own_button() {
-    let mut bench = opened(Setup::default());
+    let mut bench = opened_steep_deep();
     let before = design(&bench).clone();
     quick(&mut bench);
     bench.click("Start");
@@ -183,6 +188,7 @@ fn another_document_ends_the_search() {
     use crate::app::model::dialog::Then;
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("oval".to_owned())));
     bench.harness.run_steps(4);
+    bench.click("Don't save");
     bench.settle();
     let oval = design(&bench).clone();
     assert!(matches!(state(bench.editor()), SearchState::Choosing));
@@ -258,6 +264,8 @@ fn a_goal_is_saved_and_opened_again() {
     pick(&mut bench, "Wanted 2", "less");
     bench.type_number("Weight 2", "0.5");
     bench.type_number("At most 2", "4");
+    bench.harness.get_by_role_and_label(Role::SpinButton, "Greatest Crown angle").scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
     bench.type_number("Greatest Crown angle", "36");
     bench.choices.lock().unwrap().push(file.clone());
     bench.click("Save goal…");

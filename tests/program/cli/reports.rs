@@ -77,7 +77,6 @@ fn what_makes_no_report_is_refused_and_leaves_no_file() {
         ("cube.toml -o a.svg", 2, ".pdf or .html"),
         ("cube.toml", 2, "--out"),
         ("none.toml -o a.pdf", 1, "none.toml"),
-        ("cube.toml none.toml -o a.html", 1, "none.toml"),
         ("cube.toml -o nowhere/a/b.pdf --material rubby", 2, "did you mean 'ruby'"),
         ("a b c d e f g h -o a.pdf", 2, "1 to 7"),
     ] {
@@ -85,4 +84,13 @@ fn what_makes_no_report_is_refused_and_leaves_no_file() {
         assert!(stderr.contains(told), "{line}: {stderr}");
     }
     assert_eq!(files(&desk.at("")).len(), before);
+}
+
+#[test]
+fn a_report_on_several_stones_goes_on_past_a_file_that_is_not_there_and_ends_with_its_code() {
+    let desk = Desk::new();
+    let stderr = desk.refused("report cube.toml none.toml -o a.html --pixels 32", 1);
+    assert!(stderr.contains("none.toml") && stderr.contains("1 of 2"), "{stderr}");
+    let page = std::fs::read_to_string(desk.at("a.html")).unwrap();
+    assert!(!page.contains("none.toml"), "the command on the page is that of the stones on it");
 }

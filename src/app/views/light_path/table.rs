@@ -299,7 +299,7 @@ mod tests {
 
     #[test]
     fn figures_have_the_digits_that_mean_something() {
-        assert_eq!([0.04, -0.04, -41.25, 89.96].map(degrees), ["0.0°", "0.0°", "−41.3°", "90.0°"]);
+        assert_eq!([0.04, -0.04, -41.26, 89.96].map(degrees), ["0.0°", "0.0°", "−41.3°", "90.0°"]);
         let shares = [0.0, 0.0004, 0.0005, 0.17181, 1.0].map(percent);
         assert_eq!(shares, ["0.0 %", "<0.1 %", "0.1 %", "17.2 %", "100.0 %"]);
     }
