@@ -208,7 +208,7 @@ fn gradients(c: &mut Criterion) {
     for (how, tilt_deg) in [("face up", 0.0), ("tilted 15 degrees", 15.0)] {
         let sweep = sweep(tilt_deg);
         c.bench_function(&format!("measures: {how}, 0.2 % unresolved"), |b| {
-            b.iter(|| sweep.point(0, &unwatched).expect("a stone"));
+            b.iter(|| sweep.point(0, 1, &unwatched).expect("a stone"));
         });
         c.bench_function(&format!("gradient: {how}, by 7 numbers (goal 4 times the measures)"), |b| {
             b.iter(|| sweep.gradient(&keys, &[name], &unwatched).expect("a stone"));
