@@ -28,7 +28,7 @@ const USUAL_INDEX: f64 = 1.54;
 /// Returns whether a file's first bytes look like a GemCad text file.
 pub fn looks_like(bytes: &[u8]) -> bool {
     let text = decoded(&bytes[..bytes.len().min(4096)]);
-    let mut lines = text.lines().map(str::trim_start).filter(|line| !line.is_empty());
+    let mut lines = lines(&text).map(str::trim_start).filter(|line| !line.is_empty());
     let first = lines.next().unwrap_or_default();
     let is_facet = |line: &str| {
         let (letter, rest) = record_of(line.trim_start());

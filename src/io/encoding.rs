@@ -1,8 +1,11 @@
 //! Decodes text in the encoding that its bytes or its own words give away: a byte order mark, the zero bytes of UTF-16,
-//! a declaration, else UTF-8 or the encoding that old programs for Windows write.
+//! a declaration, else UTF-8 or the encoding that old programs for Windows write. Brings the ends of its lines into one form.
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use std::borrow::Cow;
+
+/// The number of 16-bit units at the start of a file by which UTF-16 without a mark is told from numbers.
+const UNITS: usize = 32;
 
 /// Text that was decoded.
 pub(super) struct Decoded<'b> {
@@ -15,16 +18,30 @@ pub(super) struct Decoded<'b> {
 }
 
 /// Returns the encoding that a byte order mark names, or UTF-16 where the first characters have the zero bytes of Latin
-/// letters in UTF-16 (as in Extensible Markup Language 1.0, appendix F).
-pub(super) fn marked(bytes: &[u8]) -> Option<&'static Encoding> {
+/// letters in UTF-16 (as in Extensible Markup Language 1.0, appendix F), and no unit near them is no text.
+fn marked(bytes: &[u8]) -> Option<&'static Encoding> {
+    // This is the mark of UTF-32, which nothing here reads.
+    if bytes.starts_with(b"\xff\xfe\0\0") {
+        return None;
+    }
     if let Some((encoding, _)) = Encoding::for_bom(bytes) {
         return Some(encoding);
     }
-    match bytes {
-        [1..=255, 0, 1..=255, 0, ..] => Some(UTF_16LE),
-        [0, 1..=255, 0, 1..=255, ..] => Some(UTF_16BE),
-        _ => None,
-    }
+    [(UTF_16LE, u16::from_le_bytes as fn([u8; 2]) -> u16), (UTF_16BE, u16::from_be_bytes)]
+        .into_iter()
+        .find(|(_, unit)| {
+            let units = bytes.as_chunks::<2>().0.iter().take(UNITS).map(|&pair| unit(pair));
+            begins_text(&units.collect::<Vec<u16>>())
+        })
+        .map(|(encoding, _)| encoding)
+}
+
+/// Returns whether the first units of UTF-16 begin a text in ASCII. Numbers would have control characters among them.
+fn begins_text(units: &[u16]) -> bool {
+    let is_break = |unit: &u16| matches!(unit, 9 | 10 | 13);
+    let is_ascii = |unit: &u16| matches!(unit, 0x20..0x7f) || is_break(unit);
+    let is_text = |unit: &u16| *unit >= 0x20 || is_break(unit);
+    units.len() > 1 && units[..2].iter().all(is_ascii) && units.iter().all(is_text)
 }
 
 /// Decodes text by its mark, else in the encoding that it declares, else as UTF-8, else as Windows-1252, in which every
@@ -36,6 +53,25 @@ pub(super) fn decoded<'b>(bytes: &'b [u8], declared: Option<&'static Encoding>) 
     let encoding = marked(bytes).or(declared).unwrap_or_else(otherwise);
     let (text, is_damaged) = encoding.decode_with_bom_removal(bytes);
     Decoded { text, encoding, is_damaged }
+}
+
+/// Returns text that says its encoding by its bytes in UTF-8 without a mark, and any other bytes as they are: of formats
+/// whose files may go on in numbers.
+pub(super) fn in_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    match marked(bytes) {
+        Some(encoding) if encoding == UTF_8 => Cow::Borrowed(&bytes[b"\xef\xbb\xbf".len()..]),
+        Some(encoding) => Cow::Owned(encoding.decode_with_bom_removal(bytes).0.into_owned().into_bytes()),
+        None => Cow::Borrowed(bytes),
+    }
+}
+
+/// Returns lines that end in a line feed, alone or behind a carriage return, where some end in a carriage return alone.
+pub(super) fn with_line_feeds(text: &[u8]) -> Cow<'_, [u8]> {
+    let is_lone = |at: usize| text[at] == b'\r' && text.get(at + 1) != Some(&b'\n');
+    let Some(first) = (0..text.len()).find(|&at| is_lone(at)) else { return Cow::Borrowed(text) };
+    let mut changed = text.to_vec();
+    (first..text.len()).filter(|&at| is_lone(at)).for_each(|at| changed[at] = b'\n');
+    Cow::Owned(changed)
 }
 
 #[cfg(test)]
@@ -58,6 +94,7 @@ mod tests {
         for bytes in all {
             let read = decoded(&bytes, None);
             assert_eq!((read.text.as_ref(), read.is_damaged), (text, false), "{:?}", &bytes[..4]);
+            assert_eq!(in_utf8(&bytes), text.as_bytes(), "{:?}", &bytes[..4]);
         }
     }
 
@@ -74,8 +111,34 @@ mod tests {
 
     #[test]
     fn zero_bytes_elsewhere_are_no_sign_of_an_encoding() {
-        for bytes in [&b"\0\0\0\0"[..], b"ab\0\0", b"a\0", b"", b"\0a\0\0"] {
+        let numbers: Vec<u8> = (0x41_u32..0x61).flat_map(u32::to_le_bytes).collect();
+        for bytes in [
+            &b"\0\0\0\0"[..],
+            b"ab\0\0",
+            b"a\0",
+            b"a",
+            b"",
+            b"\0a\0\0",
+            b"\0\0\0\0\0\0",
+            b"glTF\x02\0\0\0",
+            b"\xff\xfe\0\0a\0\0\0",
+            b"a\0b\0\0\0c\0",
+            &numbers,
+        ] {
             assert_eq!(marked(bytes), None, "{bytes:?}");
+            assert_eq!(in_utf8(bytes), bytes);
         }
+    }
+
+    #[test]
+    fn every_kind_of_line_end_makes_the_same_lines() {
+        let lines = |text: &[u8]| {
+            let text = with_line_feeds(text).into_owned();
+            String::from_utf8(text).unwrap().lines().map(str::to_owned).collect::<Vec<_>>()
+        };
+        for text in ["a\nb\n\nc", "a\r\nb\r\n\r\nc", "a\rb\r\rc", "a\rb\r\n\nc", "a\nb\r\rc\r"] {
+            assert_eq!(lines(text.as_bytes()), ["a", "b", "", "c"], "{text:?}");
+        }
+        assert!(matches!(with_line_feeds(b"a\r\nb\n"), Cow::Borrowed(_)));
     }
 }

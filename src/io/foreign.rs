@@ -1,6 +1,6 @@
 //! Names files of other programs that hold shapes and are not read, and says what to do with them.
 
-use super::decoding::in_utf8;
+use super::encoding::in_utf8;
 
 /// The number of bytes of a file that are examined.
 const LOOKED_AT: usize = 16 << 10;

@@ -15,8 +15,6 @@ mod cutters;
 #[cfg(feature = "interchange")]
 pub mod cutting_sheet;
 #[cfg(feature = "interchange")]
-mod decoding;
-#[cfg(feature = "interchange")]
 pub mod design_file;
 mod drawing_png;
 #[cfg(feature = "interchange")]

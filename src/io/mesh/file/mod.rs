@@ -20,7 +20,7 @@ mod stl_file;
 #[cfg(test)]
 mod tests;
 
-use crate::io::decoding::in_utf8;
+use crate::io::encoding::in_utf8;
 use crate::io::file_error::{Fault, FileError};
 use crate::io::foreign;
 use crate::math::Surface;

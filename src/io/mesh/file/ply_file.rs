@@ -6,7 +6,7 @@ use super::number::NumberReader;
 use super::parsed_mesh::ParsedMesh;
 use super::polygons::Polygons;
 use super::statement::Statement;
-use crate::io::decoding::with_line_feeds;
+use crate::io::encoding::with_line_feeds;
 use crate::io::file_error::Fault;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};

@@ -1,6 +1,6 @@
 //! Recognises the mesh format of a file by its first bytes.
 
-use crate::io::decoding::{in_utf8, with_line_feeds};
+use crate::io::encoding::{in_utf8, with_line_feeds};
 use crate::io::numbers::Token;
 
 /// The mesh formats that are read.

@@ -7,7 +7,7 @@ use super::parsed_mesh::ParsedMesh;
 use super::polygons::Polygons;
 use super::sniff::{STL_HEADER, STL_START, STL_TRIANGLE, stl_triangles};
 use super::statement::Statement;
-use crate::io::decoding::with_line_feeds;
+use crate::io::encoding::with_line_feeds;
 use crate::io::file_error::Fault;
 use crate::math::Surface;
 use glam::DVec3;
