@@ -8,7 +8,7 @@ use super::cutters::{self, Gear, WarningList};
 use super::design_file::ImportedDesign;
 use super::encoding;
 use super::file_error::Fault;
-use super::numbers::{DecimalCommas, Token};
+use super::numbers::{NumberReader, Token};
 use super::text::check_size;
 use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers};
 use std::borrow::Cow;
@@ -102,7 +102,7 @@ struct Reader {
     /// A name that was read before the index that it belongs to.
     name: Option<String>,
     count: usize,
-    commas: DecimalCommas,
+    numbers: NumberReader,
     warnings: WarningList,
 }
 
@@ -123,18 +123,7 @@ impl Reader {
 
     /// Reads a number, also with a decimal comma; `None` where the text is no number.
     fn number(&mut self, text: &str) -> Result<Option<f64>, Fault> {
-        match Token::of(text) {
-            Token::Number(number) => Ok(Some(number)),
-            Token::WithComma(number) => {
-                self.commas.count(text, self.number);
-                Ok(Some(number))
-            }
-            Token::Broken => Err(self.fault(format!(
-                "'{}' is not a number; write a decimal point, and blanks between numbers",
-                short(text)
-            ))),
-            Token::Word => Ok(None),
-        }
+        self.numbers.read(text, self.number)
     }
 
     fn line(&mut self, line: &str) -> Result<(), Fault> {
@@ -342,7 +331,7 @@ impl Reader {
         let mut missing = |what: bool, text: &str| what.then(|| self.warnings.warn(|| text.to_owned()));
         missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is assumed");
         missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is assumed");
-        self.commas.warn(&mut self.warnings);
+        self.numbers.warning().into_iter().for_each(|text| self.warnings.warn(|| text));
         let name = cutters::title(&self.headers, label);
         let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.warnings);
         let mut tiers = Tiers {

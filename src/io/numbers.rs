@@ -1,7 +1,7 @@
 //! Numbers in text that people and their programs wrote: with the decimal comma of a country, the signs of a printed
 //! manual, or the digits of a wide script.
 
-use super::cutters::WarningList;
+use super::file_error::Fault;
 use std::borrow::Cow;
 
 /// The kind of a token: a number in one of its spellings, or a word.
@@ -79,32 +79,53 @@ impl Token {
     }
 }
 
-/// The decimal commas of a file, for one warning about all of them.
+/// The most characters of a token that a message quotes.
+const QUOTED: usize = 40;
+
+/// A reader of the numbers of a file, which counts those with a decimal comma for one warning about all of them.
 #[derive(Debug, Default)]
-pub(super) struct DecimalCommas {
+pub(super) struct NumberReader {
     /// The first number with a comma, and its line.
     first: Option<(String, usize)>,
     count: usize,
 }
 
-impl DecimalCommas {
-    /// Counts a number with a decimal comma, which stands in a line.
-    pub fn count(&mut self, text: &str, line: usize) {
-        self.first.get_or_insert_with(|| (text.trim().to_owned(), line));
-        self.count += 1;
+impl NumberReader {
+    /// Reads the number of a line's token, also with a decimal comma; `None` where it is no number. It may be infinite or
+    /// NaN.
+    ///
+    /// # Errors
+    /// Fails where the token is meant as a number and has no clear value; the error has the line.
+    pub fn read(&mut self, text: &str, line: usize) -> Result<Option<f64>, Fault> {
+        match Token::of(text) {
+            Token::Number(number) => Ok(Some(number)),
+            Token::WithComma(number) => {
+                self.first.get_or_insert_with(|| (text.to_owned(), line));
+                self.count += 1;
+                Ok(Some(number))
+            }
+            Token::Broken => {
+                let problem = format!(
+                    "'{text:.QUOTED$}' is not a number; write a decimal point, and blanks between numbers"
+                );
+                Err(Fault::line(line, problem))
+            }
+            Token::Word => Ok(None),
+        }
     }
 
-    /// Warns of the commas, if there are any.
-    pub fn warn(self, warnings: &mut WarningList) {
-        let Some((first, line)) = self.first else { return };
-        let number = in_ascii(&first).replace(',', ".");
+    /// Returns the warning about decimal commas, if there were any.
+    pub fn warning(&self) -> Option<String> {
+        let (first, line) = self.first.as_ref()?;
+        let number = in_ascii(first).replace(',', ".");
         let others = match self.count - 1 {
             0 => String::new(),
+            1 => ", and so is one more number".to_owned(),
             others => format!(", and so are {others} more numbers"),
         };
-        warnings.warn(|| {
-            format!("line {line}: '{first}' has a decimal comma and is read as {number}{others}; write decimal points")
-        });
+        Some(format!(
+            "line {line}: '{first}' has a decimal comma and is read as {number}{others}; write decimal points"
+        ))
     }
 }
 
@@ -136,5 +157,27 @@ mod tests {
         for text in ["４１，５", "٤١٫٥", "۴۱٫۵"] {
             assert_eq!(Token::of(text), Token::WithComma(41.5), "{text}");
         }
+    }
+    #[test]
+    fn one_warning_speaks_of_all_decimal_commas() {
+        let warning = |tokens: &[&str]| {
+            let mut numbers = NumberReader::default();
+            let mut read = |text: &&str| numbers.read(text, 3).unwrap();
+            assert!(tokens.iter().all(|text| read(text).is_some()), "{tokens:?}");
+            numbers.warning().unwrap_or_default()
+        };
+        assert_eq!(warning(&["1.5", "2"]), "");
+        for (tokens, others) in [
+            (&["0", "４１，５"][..], ""),
+            (&["４１，５", "1,5"], ", and so is one more number"),
+            (&["４１，５", "1,5", "-2,25"], ", and so are 2 more numbers"),
+        ] {
+            let start = "line 3: '４１，５' has a decimal comma and is read as 41.5";
+            assert_eq!(warning(tokens), format!("{start}{others}; write decimal points"));
+        }
+        let mut numbers = NumberReader::default();
+        let broken = numbers.read("1,2,3", 7).unwrap_err();
+        assert_eq!((broken.line, broken.problem.contains("'1,2,3' is not a number")), (Some(7), true));
+        assert_eq!((numbers.read("word", 7).unwrap(), numbers.warning()), (None, None));
     }
 }

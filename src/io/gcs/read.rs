@@ -5,7 +5,7 @@ use crate::cut::{MaterialRef, Tiers};
 use crate::io::cutters::{self, Gear, WarningList};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::Fault;
-use crate::io::numbers::{DecimalCommas, Token};
+use crate::io::numbers::NumberReader;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt::Display;
 
@@ -34,10 +34,10 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     let document = Document::parse_with_options(&text, options)
         .map_err(|error| Fault::line(error.pos().row as usize, error))?;
     let mut reader =
-        Reader { document: &document, warnings: WarningList::default(), commas: DecimalCommas::default() };
+        Reader { document: &document, warnings: WarningList::default(), numbers: NumberReader::default() };
     warning.into_iter().for_each(|text| reader.warnings.warn(|| text));
     let (tiers, material) = reader.design()?;
-    reader.commas.warn(&mut reader.warnings);
+    reader.numbers.warning().into_iter().for_each(|text| reader.warnings.warn(|| text));
     let name = cutters::title(tiers.headers.first(), label);
     cutters::brought(name, material, tiers, reader.warnings)
 }
@@ -45,7 +45,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
 pub(super) struct Reader<'d> {
     document: &'d Document<'d>,
     pub warnings: WarningList,
-    commas: DecimalCommas,
+    numbers: NumberReader,
 }
 
 impl<'d> Reader<'d> {
@@ -73,11 +73,8 @@ impl<'d> Reader<'d> {
     /// where it is anything else.
     pub fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
         let text = node.attribute(key)?;
-        let token = Token::of(text.trim());
-        if let Token::WithComma(_) = token {
-            self.commas.count(text, self.line(node));
-        }
-        let number = token.number().filter(|number| number.is_finite());
+        let read = self.numbers.read(text.trim(), self.line(node));
+        let number = read.ok().flatten().filter(|number| number.is_finite());
         if number.is_none() {
             self.warn(node, || format!("{key}: '{text:.40}' is not a finite number; it is not read"));
         }

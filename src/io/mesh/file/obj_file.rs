@@ -4,12 +4,13 @@
 
 use super::limits;
 use super::lines::Lines;
-use super::number::NumberReader;
+use super::number::number;
 use super::parsed_mesh::ParsedMesh;
 use super::polygons::Polygons;
 use super::statement::Statement;
 use crate::io::encoding::with_line_feeds;
 use crate::io::file_error::Fault;
+use crate::io::numbers::NumberReader;
 use glam::DVec3;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -133,9 +134,15 @@ impl Odd {
     /// Hands on the position of a corner: only its three numbers, because a weight would be 1, and a colour is not used.
     fn position(&mut self, rest: &str, out: &mut Vec<u8>) {
         out.extend(b"v");
+        let is_plain = |byte: u8| matches!(byte, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
         for text in rest.split_whitespace().take(3) {
-            match text.contains(',').then(|| self.numbers.read(text, self.line.get())).transpose() {
-                Ok(_) => out.extend(format!(" {}", text.replace(',', ".")).as_bytes()),
+            out.push(b' ');
+            if text.bytes().all(is_plain) {
+                out.extend(text.as_bytes());
+                continue;
+            }
+            match number(&mut self.numbers, text, self.line.get()) {
+                Ok(number) => out.extend(number.to_string().as_bytes()),
                 Err(fault) => drop(self.fault.get_or_insert(fault)),
             }
         }

@@ -2,12 +2,13 @@
 
 use super::limits::{self, MAX_VERTICES};
 use super::lines::Lines;
-use super::number::NumberReader;
+use super::number::number as read_number;
 use super::parsed_mesh::ParsedMesh;
 use super::polygons::Polygons;
 use super::statement::Statement;
 use crate::io::encoding::with_line_feeds;
 use crate::io::file_error::Fault;
+use crate::io::numbers::NumberReader;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
@@ -209,7 +210,7 @@ fn tidy(row: &str, numbers: &mut NumberReader, line: usize) -> Result<String, Fa
         if is_plain(word) {
             tidied += word;
         } else {
-            let number = numbers.read(word, line)?;
+            let number = read_number(numbers, word, line)?;
             // Too large for any number: the position is then not finite, as the file says.
             tidied += &if number.is_finite() { format!("{number}") } else { "9e999".to_owned() };
         }

@@ -2,13 +2,14 @@
 //! and of three corners; programs leave out normals, write more corners, and spell the words in several ways.
 
 use super::limits;
-use super::number::NumberReader;
+use super::number::number;
 use super::parsed_mesh::ParsedMesh;
 use super::polygons::Polygons;
 use super::sniff::{STL_HEADER, STL_START, STL_TRIANGLE, stl_triangles};
 use super::statement::Statement;
 use crate::io::encoding::with_line_feeds;
 use crate::io::file_error::Fault;
+use crate::io::numbers::NumberReader;
 use crate::math::Surface;
 use glam::DVec3;
 use std::io::Cursor;
@@ -136,7 +137,7 @@ impl Text {
             let word = words
                 .next()
                 .ok_or_else(|| Fault::line(self.line, "three numbers are expected after `vertex`"))?;
-            at[axis] = self.numbers.read(word, self.line)?;
+            at[axis] = number(&mut self.numbers, word, self.line)?;
         }
         self.corners.push(at);
         Ok(())
