@@ -78,7 +78,7 @@ struct Task {
 
 impl BenchArguments {
     pub fn run(&self) -> Result<(), Failure> {
-        let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), MeshOptions::default())?;
+        let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), &MeshOptions::default())?;
         let has_card = has_card();
         let threads = rayon::current_num_threads();
         if !self.json {

@@ -50,7 +50,7 @@ impl Convert {
             comments::keep(&self.input, &self.output, "give another name, or --drop-comments")?;
         }
         let mut specimen =
-            LoadedSpecimen::load(&self.input, self.mesh.sized(self.stone))?.made_of(None, self.stone)?;
+            LoadedSpecimen::load(&self.input, &self.mesh.sized(self.stone))?.made_of(None, self.stone)?;
         if self.meets {
             specimen = followed(specimen)?;
         }

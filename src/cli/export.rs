@@ -64,7 +64,7 @@ impl ExportArguments {
         self.distinct(&all)?;
         all.iter().try_for_each(Outputs::check)?;
         each_file(&self.files, false, |file| {
-            let specimen = self.light.specimen(file, self.mesh.sized(self.light.stone))?;
+            let specimen = self.light.specimen(file, &self.mesh.sized(self.light.stone))?;
             let mut renderer = Renderer::new(Card::Machine);
             let mut viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             viewing.glare = if self.glare { Some(Glare::Included) } else { viewing.glare };

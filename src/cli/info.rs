@@ -60,7 +60,7 @@ pub struct Info {
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
-        let (mesh, material) = (self.mesh.sized(self.stone), self.material.as_deref());
+        let (mesh, material) = (&self.mesh.sized(self.stone), self.material.as_deref());
         each_file(&self.files, self.json, |file| {
             if is_scene(file) {
                 let assembly = load_assembly(file, material, self.stone, mesh)?;

@@ -94,7 +94,7 @@ impl Measure {
         }
         let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
         each_file(&self.files, self.json, |file| {
-            let specimen = self.light.specimen(file, self.mesh.sized(self.light.stone))?;
+            let specimen = self.light.specimen(file, &self.mesh.sized(self.light.stone))?;
             if self.deviations {
                 return self.list_deviations(&specimen);
             }

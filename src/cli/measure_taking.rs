@@ -57,7 +57,7 @@ impl MeasureTaking {
         axes: Vec<SweepAxis>,
         measures: &[MeasureName],
     ) -> Result<Sweep, Failure> {
-        let specimen = LoadedSpecimen::load(file, self.mesh.sized(self.stone))?;
+        let specimen = LoadedSpecimen::load(file, &self.mesh.sized(self.stone))?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
         let is_varied = axes.iter().any(|axis| axis.key == SweepKey::Material);
         note_no_fire(&specimen.material, measures.iter().copied().filter(|_| !is_varied), "by --material");

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 
 /// The options by which meshes are read. Other files of designs state the direction and the form themselves.
-#[derive(Debug, Clone, Copy, Default, Args)]
+#[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Meshes")]
 pub struct MeshArguments {
     /// The direction in which the table of a mesh faces, in its own frame: x, -x, y, -y, z, -z, or X,Y,Z [default: as found]
@@ -30,31 +30,32 @@ pub struct MeshArguments {
 
 impl MeshArguments {
     /// Returns the mesh options, with defaults for those that are not given.
-    pub fn options(self) -> MeshOptions {
+    pub fn options(&self) -> MeshOptions {
         let Self { up, form, unit, part, as_found } = self;
         MeshOptions {
             up: up.unwrap_or_default(),
             form: form.unwrap_or_default(),
             unit: unit.unwrap_or_default(),
-            part: part.unwrap_or_default(),
-            evening: if as_found { Evening::AsFound } else { Evening::WhereLikely },
+            part: part.clone().unwrap_or_default(),
+            evening: if *as_found { Evening::AsFound } else { Evening::WhereLikely },
         }
     }
 
     /// Returns the mesh options for a stone of this size, if it is given.
-    pub fn sized(self, size: Option<Size>) -> MeshOptions {
+    pub fn sized(&self, size: Option<Size>) -> MeshOptions {
         self.options().sized(size)
     }
 
     /// Returns the options as command-line words, with numbers in a fixed form.
-    pub fn words(self) -> Vec<String> {
+    pub fn words(&self) -> Vec<String> {
         let up = self.up.and_then(|up| match up {
             Up::Given(direction) => Some(direction.to_array().map(|part| (part + 0.0).to_string()).join(",")),
             _ => None,
         });
         let form = self.form.and_then(|form| form.to_possible_value()).map(|form| form.get_name().to_owned());
         let words = |option: &str, value: Option<String>| value.map(|value| [option.to_owned(), value]);
-        let [unit, part] = [self.unit.map(|unit| unit.to_string()), self.part.map(|part| part.to_string())];
+        let [unit, part] =
+            [self.unit.map(|unit| unit.to_string()), self.part.as_ref().map(MeshPart::to_string)];
         let all = [words("--up", up), words("--as", form), words("--unit", unit), words("--part", part)];
         let as_found = self.as_found.then(|| "--as-found".to_owned());
         all.into_iter().flatten().flatten().chain(as_found).collect()
@@ -123,9 +124,11 @@ mod tests {
     #[test]
     fn a_part_is_a_number_a_name_or_all() {
         let given = |text: &str| Command::try_parse_from(["b", "--part", text]).map(|c| c.mesh);
-        for (text, part) in
-            [("2", MeshPart::Number(2)), ("all", MeshPart::All), ("Stone 1", MeshPart::Named("Stone 1"))]
-        {
+        for (text, part) in [
+            ("2", MeshPart::Number(2)),
+            ("all", MeshPart::All),
+            ("Stone 1", MeshPart::Named("Stone 1".into())),
+        ] {
             let mesh = given(text).unwrap();
             assert_eq!(mesh.options().part, part);
             assert_eq!(mesh.words(), ["--part", text]);

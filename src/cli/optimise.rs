@@ -146,7 +146,7 @@ impl OptimiseArguments {
         let plot = self.plot.as_deref().map(PlotFile::new).transpose()?;
         self.out.iter().chain(&self.plot).try_for_each(|path| check_writable(path))?;
         self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
-        let specimen = LoadedSpecimen::load(&self.file, crate::io::mesh_options::MeshOptions::default())?;
+        let specimen = LoadedSpecimen::load(&self.file, &crate::io::mesh_options::MeshOptions::default())?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
         let path = specimen.path.clone();
         let refused = |error: SearchError| match error {

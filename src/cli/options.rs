@@ -192,7 +192,7 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
 
 impl LightOptions {
     /// Reads a stone, and applies the material and the size that the options give.
-    pub fn specimen(&self, file: &Path, mesh: MeshOptions) -> Result<LoadedSpecimen, Failure> {
+    pub fn specimen(&self, file: &Path, mesh: &MeshOptions) -> Result<LoadedSpecimen, Failure> {
         LoadedSpecimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
     }
 

@@ -82,7 +82,7 @@ impl<'a> PictureSetup<'a> {
             file,
             options.material.as_deref(),
             options.stone,
-            options.mesh.sized(options.stone),
+            &options.mesh.sized(options.stone),
         )?;
         if let Some(seconds) = options.moment {
             let seconds = within("moment", seconds, 0.0, 1e5)?;

@@ -56,7 +56,7 @@ impl ReportArguments {
         let mut renderer = Renderer::new(Card::None);
         let (mut specimens, mut failed) = (vec![], vec![]);
         for file in &self.files {
-            let loaded = light.specimen(file, self.mesh.sized(light.stone)).and_then(|specimen| {
+            let loaded = light.specimen(file, &self.mesh.sized(light.stone)).and_then(|specimen| {
                 light.viewing(&specimen, &FACE_UP, &renderer)?;
                 Ok(specimen)
             });

@@ -101,7 +101,7 @@ impl RetargetArguments {
         });
         let format = format.transpose()?;
         self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
-        let specimen = LoadedSpecimen::load(&self.file, self.mesh.options())?;
+        let specimen = LoadedSpecimen::load(&self.file, &self.mesh.options())?;
         let path = specimen.path.clone();
         let (material, _) = asked_material(&self.material)?;
         let found = retarget(&specimen.design, material, rule).map_err(|error| match error {

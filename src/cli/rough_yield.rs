@@ -43,8 +43,8 @@ impl RoughYield {
         if let Some(carats) = self.rough_weight.filter(|carats| !(*carats > 0.0 && carats.is_finite())) {
             return Err(Failure::Usage(format!("--rough-weight {carats}: give more than 0 carats")));
         }
-        let specimen =
-            LoadedSpecimen::load(&self.file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
+        let specimen = LoadedSpecimen::load(&self.file, &self.mesh.options())?
+            .made_of(self.material.as_deref(), None)?;
         let (path, body) = (&specimen.path, specimen.solid());
         let found = match (&self.rough, self.weight) {
             (Some(rough), _) => Finished::from_rough(body, rough, self.girdle_mm),

@@ -46,7 +46,7 @@ impl SheetArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let format = if self.json { None } else { Some(self.format()?) };
         each_file(&self.files, self.json, |file| {
-            let specimen = LoadedSpecimen::load(file, self.mesh.sized(self.stone))?
+            let specimen = LoadedSpecimen::load(file, &self.mesh.sized(self.stone))?
                 .made_of(self.material.as_deref(), self.stone)?;
             let sheet = cutting_sheet(&specimen, self.left_handed)?;
             let Some((format, is_folder)) = format else {

@@ -37,7 +37,7 @@ impl Deref for LoadedSpecimen {
 impl LoadedSpecimen {
     /// Reads a design, or takes by its name a cut that comes with the program, and builds the stone. Prints notes and
     /// warnings about it.
-    pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
+    pub fn load(file: &Path, mesh: &MeshOptions) -> Result<Self, Failure> {
         let BuiltDesign { path, made, remarks, parts, has_other_reading, errors } =
             BuiltDesign::load(file, mesh)?;
         remarks.iter().for_each(|remark| say(remark));
@@ -95,7 +95,7 @@ pub fn load_assembly(
     file: &Path,
     material: Option<&str>,
     size: Option<Size>,
-    mesh: MeshOptions,
+    mesh: &MeshOptions,
 ) -> Result<Assembly, Failure> {
     let material = material.map(|text| asked_material(text).map(|(named, _)| named)).transpose()?;
     let assembly = Assembly::load(file, material.as_ref(), size, mesh)?;

@@ -143,7 +143,7 @@ impl<'a> ScopeSetup<'a> {
     ) -> Result<Self, Failure> {
         let scoped = scoped(scope)?;
         options.head.map(checked_head).transpose()?;
-        let specimen = LoadedSpecimen::load(file, options.mesh.sized(options.stone))?
+        let specimen = LoadedSpecimen::load(file, &options.mesh.sized(options.stone))?
             .made_of(options.material.as_deref(), options.stone)?;
         note_colour(&specimen.material);
         let material = &specimen.material;

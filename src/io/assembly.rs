@@ -109,7 +109,7 @@ impl Assembly {
         file: &Path,
         material: Option<&MaterialRef>,
         size: Option<Size>,
-        mesh: MeshOptions,
+        mesh: &MeshOptions,
     ) -> Result<Self, Failure> {
         match scene(file)? {
             Some(scene) => Self::of_scene(file, scene, material, (size, mesh)),
@@ -122,7 +122,7 @@ impl Assembly {
     /// # Errors
     /// Fails where [`load`](Self::load) does.
     pub fn of(file: &Path, scene: SceneFile) -> Result<Self, Failure> {
-        Self::of_scene(file, scene, None, (None, MeshOptions::default()))
+        Self::of_scene(file, scene, None, (None, &MeshOptions::default()))
     }
 
     fn of_stone(
@@ -162,13 +162,13 @@ impl Assembly {
         file: &Path,
         scene: SceneFile,
         material: Option<&MaterialRef>,
-        (size, mesh): (Option<Size>, MeshOptions),
+        (size, mesh): (Option<Size>, &MeshOptions),
     ) -> Result<Self, Failure> {
         let path = file.display().to_string();
         let mut remarks = vec![];
         let specimens = specimens(file, &scene, mesh, &mut remarks)?;
         let member = |(number, entry): (usize, &Entry)| {
-            let specimen = &specimens[&(entry.cut.clone(), entry.part)];
+            let specimen = &specimens[&(entry.cut.clone(), entry.part.clone())];
             let description = format!("stone {} ({})", number + 1, entry.cut);
             member(specimen, entry, material, size.or(entry.size), description)
                 .map_err(|message| at_entry(file, number, entry, &message))
@@ -257,7 +257,7 @@ type CutKey = (String, MeshPart);
 fn specimens(
     file: &Path,
     scene: &SceneFile,
-    mesh: MeshOptions,
+    mesh: &MeshOptions,
     remarks: &mut Vec<String>,
 ) -> Result<BTreeMap<CutKey, Arc<Specimen>>, Failure> {
     let mut specimens = BTreeMap::new();
@@ -266,15 +266,15 @@ fn specimens(
         other => other,
     };
     for (number, entry) in scene.stones.iter().enumerate() {
-        let key = (entry.cut.clone(), entry.part);
+        let key = (entry.cut.clone(), entry.part.clone());
         if !specimens.contains_key(&key) {
             // A scene that names no body leaves it to the options.
-            let part = if entry.part == MeshPart::Found { mesh.part } else { entry.part };
-            let mesh = MeshOptions { part, ..mesh };
+            let part = if entry.part == MeshPart::Found { &mesh.part } else { &entry.part };
+            let mesh = MeshOptions { part: part.clone(), ..mesh.clone() };
             let at = |message: &str| at_entry(file, number, entry, &format!("cut: {message}"));
             let mut same = scene.stones.iter().filter(|other| other.cut == entry.cut);
             let mesh = if same.all(|other| other.size.is_some()) { mesh.sized(entry.size) } else { mesh };
-            let read = built(file, &entry.cut, mesh).map_err(|failure| failed(failure, &at))?;
+            let read = built(file, &entry.cut, &mesh).map_err(|failure| failed(failure, &at))?;
             remarks.extend(read.remarks);
             specimens.insert(key, Arc::new(read.made));
         }
@@ -293,7 +293,7 @@ fn specimens(
 
 /// Reads one cut of a scene: a cut that comes with the program, or a file relative to the scene's folder. Where both exist,
 /// a scene read from a file takes the file, and any other scene takes the program's cut.
-fn built(scene: &Path, cut: &str, mesh: MeshOptions) -> Result<BuiltDesign, Failure> {
+fn built(scene: &Path, cut: &str, mesh: &MeshOptions) -> Result<BuiltDesign, Failure> {
     let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
     match library::cut(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
         Some(text) => BuiltDesign::parse(cut, text),

@@ -44,7 +44,7 @@ impl BuiltDesign {
     ///
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
-    pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
+    pub fn load(file: &Path, mesh: &MeshOptions) -> Result<Self, Failure> {
         let name = file.display().to_string();
         match library::cut(&name).filter(|_| !file.is_file()) {
             Some(text) => Self::parse(&name, text),
@@ -59,7 +59,7 @@ impl BuiltDesign {
     ///
     /// # Errors
     /// Fails where [`load`](Self::load) does.
-    pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
+    pub fn read(file: &Path, mesh: &MeshOptions) -> Result<Self, Failure> {
         let refused = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
         Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(refused)?)
     }

@@ -101,14 +101,14 @@ impl DesignFormat {
 /// # Errors
 /// Fails where the file is no design; the error has its path, and a line where there is one.
 pub fn read(path: &Path) -> Result<ImportedDesign, FileError> {
-    read_with(path, MeshOptions::default())
+    read_with(path, &MeshOptions::default())
 }
 
 /// Reads a design; the options apply to meshes alone.
 ///
 /// # Errors
 /// Fails where the file is no design; the error has its path, and a line where there is one.
-pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
+pub fn read_with(path: &Path, options: &MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
     let named = |fault: Fault| fault.in_file(&label);
     let bytes = text::read_bytes(path, mesh::MAX_BYTES).map_err(named)?;

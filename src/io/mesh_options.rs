@@ -4,13 +4,12 @@
 use crate::cut::Size;
 use crate::cut::from_mesh::{Evening, Up};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Arc;
 
 /// The options by which a mesh is read as a stone. By default all are found from its shape and its format.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshOptions {
     /// The direction in which the table faces, in the mesh's own frame.
     pub up: Up,
@@ -34,14 +33,14 @@ impl MeshOptions {
     }
 
     /// Returns whether any option is given that only meshes have.
-    pub fn is_given(self) -> bool {
+    pub fn is_given(&self) -> bool {
         let is_unit_given = matches!(self.unit, MeshUnit::Millimetres(_));
-        Self { unit: MeshUnit::Found, ..self } != Self::default() || is_unit_given
+        Self { unit: MeshUnit::Found, ..self.clone() } != Self::default() || is_unit_given
     }
 }
 
 /// The solid that is read of a mesh that has several.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum MeshPart {
     /// The largest one that is more than a box.
     #[default]
@@ -51,12 +50,8 @@ pub enum MeshPart {
     /// The one with this number, from 1, in the order of the file.
     Number(usize),
     /// The one with this name in the file.
-    Named(&'static str),
+    Named(Arc<str>),
 }
-
-/// The names that have been asked for. Options are copied freely, so that a name is kept until the program ends; a person asks
-/// for few.
-static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
 
 impl From<&str> for MeshPart {
     /// Reads what a person writes: `all`, a number, or a name. An empty text stands for the one that is found.
@@ -65,15 +60,7 @@ impl From<&str> for MeshPart {
             ("", _) => Self::Found,
             ("all", _) => Self::All,
             (_, Ok(number)) => Self::Number(number),
-            (name, Err(_)) => {
-                let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
-                let known = names.get(name).copied();
-                Self::Named(known.unwrap_or_else(|| {
-                    let kept: &'static str = Box::leak(name.into());
-                    names.insert(kept);
-                    kept
-                }))
-            }
+            (name, Err(_)) => Self::Named(name.into()),
         }
     }
 }
@@ -197,8 +184,8 @@ mod tests {
             ("", MeshPart::Found),
             ("all", MeshPart::All),
             (" 12 ", MeshPart::Number(12)),
-            ("Stone 2", MeshPart::Named("Stone 2")),
-            ("-1", MeshPart::Named("-1")),
+            ("Stone 2", MeshPart::Named("Stone 2".into())),
+            ("-1", MeshPart::Named("-1".into())),
         ] {
             assert_eq!(MeshPart::from(text), part);
             assert_eq!(MeshPart::from(part.to_string().as_str()), part);

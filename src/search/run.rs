@@ -267,7 +267,7 @@ impl DesignSearch {
 
     /// Measures the best finely, unless the search was stopped, in which case its figures stay rough.
     fn outcome(&self, trials: &Trials, watch: Watch) -> Result<SearchOutcome, SearchError> {
-// A copy, so that the lock is not held while the best is measured on the pool.
+        // A copy, so that the lock is not held while the best is measured on the pool.
         let record = trials.record().clone();
         let start = self.objective.start_places();
         let finest = self.options.unresolved / FINER;

@@ -45,7 +45,7 @@ fn read(specimen: &Specimen, noise: f64, is_y_up: bool) -> ImportedDesign {
     let noise_mm = noise * specimen.unit_mm();
     let lies = |v: DVec3| if is_y_up { DVec3::new(v.x, v.z, -v.y) } else { v };
     let bytes = moved(DesignFormat::Obj, bytes, &|v| lies(shaken(v, noise_mm)));
-    mesh::read(bytes, Path::new("x.obj"), MeshOptions::default()).unwrap()
+    mesh::read(bytes, Path::new("x.obj"), &MeshOptions::default()).unwrap()
 }
 
 /// The figures of a stone that show how it lies and which width it has.
@@ -138,7 +138,7 @@ fn the_size_of_a_stone_is_that_of_its_file_or_assumed_with_a_note() {
         let path = PathBuf::from(format!("x.{}", format.ending()));
         let bytes = moved(format, bytes, &|v| scale * v);
         let ImportedDesign { design, notes, .. } =
-            mesh::read(bytes, &path, MeshOptions { unit, ..MeshOptions::default() }).unwrap();
+            mesh::read(bytes, &path, &MeshOptions { unit, ..MeshOptions::default() }).unwrap();
         let noted = notes.into_iter().filter(|note| note.contains("mm across")).collect::<Vec<_>>();
         (design.diameter_mm, noted.join("; "))
     };
@@ -164,7 +164,7 @@ fn what_a_file_of_this_program_says_of_its_size_needs_no_note_and_yields_to_a_un
         let bytes = written(&specimen, format).unwrap().bytes;
         let path = PathBuf::from(format!("x.{}", format.ending()));
         let open = |unit, bytes: Vec<u8>| {
-            mesh::read(bytes, &path, MeshOptions { unit, ..MeshOptions::default() }).unwrap()
+            mesh::read(bytes, &path, &MeshOptions { unit, ..MeshOptions::default() }).unwrap()
         };
         let kept = open(MeshUnit::Found, bytes.clone());
         assert_eq!(kept.design.diameter_mm, specimen.design.diameter_mm);

@@ -121,7 +121,7 @@ fn fate(specimen: &Specimen, format: DesignFormat, way: Way, turn: DQuat) -> Res
         Way::StrippedAndTurned => turned(format, stripped(format, bytes), turn),
     };
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let imported = mesh::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
+    let imported = mesh::read(bytes, &path, &MeshOptions::default()).map_err(|e| e.to_string())?;
     let says = matches!(way, Way::Kept | Way::Turned);
     let notes = imported.notes.join("; ");
     let back = Specimen::new(imported.design).map_err(|e| e.to_string())?;
@@ -255,7 +255,7 @@ fn what_another_program_writes_is_found_by_its_shape() {
 /// Returns the stone that a mesh is read as, with the notes and the warnings about it.
 fn read(format: DesignFormat, bytes: Vec<u8>, up: Up) -> (Specimen, Vec<String>, Vec<String>) {
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let imported = mesh::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
+    let imported = mesh::read(bytes, &path, &MeshOptions { up, ..MeshOptions::default() }).unwrap();
     (Specimen::new(imported.design).unwrap(), imported.notes, imported.warnings)
 }
 

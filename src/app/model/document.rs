@@ -113,7 +113,7 @@ impl Document {
     ///
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
-    pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, FileError> {
+    pub fn open(path: &Path, mesh: &MeshOptions) -> Result<Self, FileError> {
         let ImportedDesign { mut design, notes, warnings, doubt, parts, .. } =
             design_file::read_with(path, mesh)?;
         adopt_meets(&mut design);
@@ -121,8 +121,8 @@ impl Document {
             .map_err(|error| FileError::new(path.display(), error))?;
         document.work.remarks = warnings.into_iter().chain(notes).collect();
         let diameter_mm = document.work.design.diameter_mm;
-        let read =
-            |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, parts, is_doubtful, diameter_mm };
+        let (path, options) = (path.to_owned(), mesh.clone());
+        let read = |is_doubtful| ReadMesh { path, options, parts, is_doubtful, diameter_mm };
         document.work.mesh = doubt.map(read);
         document.history = History::new(document.work.clone());
         Ok(document)
@@ -471,7 +471,7 @@ mod tests {
         assert!(document.update() && document.settle() && document.is_changed());
         document.take_saved(save(document.to_save(0, path.clone()).unwrap()).unwrap());
         assert!(!document.is_changed() && document.title() == "mine.toml" && !is_changed_outside(&document));
-        assert_eq!(Document::open(&path, MeshOptions::default()).unwrap().work.design, document.work.design);
+        assert_eq!(Document::open(&path, &MeshOptions::default()).unwrap().work.design, document.work.design);
         std::fs::write(&path, "format = 1").unwrap();
         assert!(is_changed_outside(&document));
         document.accept_outside(Stamp::of(&path));

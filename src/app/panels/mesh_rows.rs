@@ -41,26 +41,26 @@ const FORMS: [(&str, MeshForm, &str); 2] = [
 /// Draws the rows for a design that was read from a mesh; another choice reads the mesh anew.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let Some(options) = model.mesh_options() else { return };
-    form(&model.document.work.design.cut, options, actions, ui);
+    form(&model.document.work.design.cut, &options, actions, ui);
     let mut up = options.up;
     ChoiceRow::new("Table faces", MEANING, &direction_name(up)).show(ui, |ui| {
         for (name, direction) in DIRECTIONS {
             ui.selectable_value(&mut up, direction, name);
         }
     });
-    actions.push_changed(&options.up, up, |up| FileAction::ReadMesh(MeshOptions { up, ..options }));
-    unit(options, actions, ui);
+    actions.push_changed(&options.up, up, |up| FileAction::ReadMesh(MeshOptions { up, ..options.clone() }));
+    unit(&options, actions, ui);
     let parts = model.document.work.mesh.as_ref().map_or(&[][..], |mesh| &mesh.parts);
     if !parts.is_empty() {
-        part(parts, options, actions, ui);
+        part(parts, &options, actions, ui);
     }
     if matches!(model.document.work.design.cut, Cut::Planes(_)) {
-        as_found(options, actions, ui);
+        as_found(&options, actions, ui);
     }
 }
 
 /// Draws the row of units; the sign is that of the unit, as it is given on the command line.
-fn unit(options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+fn unit(options: &MeshOptions, actions: &mut Actions, ui: &mut Ui) {
     let mut unit = options.unit;
     ChoiceRow::new("Unit", UNIT_MEANING, &unit_name(unit)).show(ui, |ui| {
         ui.selectable_value(&mut unit, MeshUnit::Found, AUTOMATIC);
@@ -68,7 +68,9 @@ fn unit(options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
             ui.selectable_value(&mut unit, MeshUnit::Millimetres(mm), name);
         }
     });
-    actions.push_changed(&options.unit, unit, |unit| FileAction::ReadMesh(MeshOptions { unit, ..options }));
+    actions.push_changed(&options.unit, unit, |unit| {
+        FileAction::ReadMesh(MeshOptions { unit, ..options.clone() })
+    });
 }
 
 fn unit_name(unit: MeshUnit) -> String {
@@ -79,8 +81,8 @@ fn unit_name(unit: MeshUnit) -> String {
 }
 
 /// Draws the row that chooses one of the bodies in the file, or all of them.
-fn part(parts: &[String], options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
-    let mut chosen = options.part;
+fn part(parts: &[String], options: &MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+    let mut chosen = options.part.clone();
     let numbered = parts.iter().enumerate().map(|(place, name)| (name.as_str(), MeshPart::Number(place + 1)));
     let all =
         [("Automatic", MeshPart::Found)].into_iter().chain(numbered).chain([("All as one", MeshPart::All)]);
@@ -92,11 +94,13 @@ fn part(parts: &[String], options: MeshOptions, actions: &mut Actions, ui: &mut 
             ui.selectable_value(&mut chosen, part, name);
         }
     });
-    actions.push_changed(&options.part, chosen, |part| FileAction::ReadMesh(MeshOptions { part, ..options }));
+    actions.push_changed(&options.part, chosen, |part| {
+        FileAction::ReadMesh(MeshOptions { part, ..options.clone() })
+    });
 }
 
 /// Draws the row by which facets stay as they were found.
-fn as_found(options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+fn as_found(options: &MeshOptions, actions: &mut Actions, ui: &mut Ui) {
     let was = options.evening == Evening::AsFound;
     let mut is = was;
     ui.checkbox(&mut is, "Keep facets as found").on_hover_text(
@@ -104,11 +108,11 @@ fn as_found(options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
          you change it.",
     );
     let evening = if is { Evening::AsFound } else { Evening::WhereLikely };
-    actions.push_changed(&was, is, |_| FileAction::ReadMesh(MeshOptions { evening, ..options }));
+    actions.push_changed(&was, is, |_| FileAction::ReadMesh(MeshOptions { evening, ..options.clone() }));
 }
 
 /// Draws the row of forms; the chosen form is marked, or the form of the cut where none was chosen.
-fn form(cut: &Cut, options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+fn form(cut: &Cut, options: &MeshOptions, actions: &mut Actions, ui: &mut Ui) {
     let found = match cut {
         Cut::Planes(_) => MeshForm::Faceted,
         Cut::Mesh(_) => MeshForm::Triangles,
@@ -124,7 +128,7 @@ fn form(cut: &Cut, options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
         for (name, form, meaning) in FORMS {
             let is_present = form == present;
             if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {
-                actions.push(FileAction::ReadMesh(MeshOptions { form, ..options }));
+                actions.push(FileAction::ReadMesh(MeshOptions { form, ..options.clone() }));
             }
         }
     });

@@ -218,8 +218,8 @@ fn orphan(path: PathBuf) -> Option<RecoveredWork> {
 /// the work was saved in.
 fn mesh_again(mesh: Option<&ReadMesh>, path: Option<&Path>) -> Option<Cut> {
     let triangles = MeshOptions { form: MeshForm::Triangles, ..MeshOptions::default() };
-    let sources = mesh.map(|mesh| (mesh.path.as_path(), mesh.options)).into_iter();
-    sources.chain(path.map(|path| (path, triangles))).find_map(|(path, options)| {
+    let sources = mesh.map(|mesh| (mesh.path.as_path(), &mesh.options)).into_iter();
+    sources.chain(path.map(|path| (path, &triangles))).find_map(|(path, options)| {
         let cut = design_file::read_with(path, options).ok()?.design.cut;
         matches!(cut, Cut::Mesh(_)).then_some(cut)
     })
@@ -313,7 +313,7 @@ mod tests {
                 part: MeshPart::Number(1),
                 evening: Evening::AsFound,
             };
-            let work = Document::open(&path, options).unwrap().work;
+            let work = Document::open(&path, &options).unwrap().work;
             let mut safe = Autosave::new(folder.path().join("safe"));
             safe.keep(&alone(&work, Some(&path))).unwrap();
             drop(safe);
@@ -321,7 +321,7 @@ mod tests {
             assert!(found.design == work.design, "{form:?}");
             let recovered = Document::recovered(&found).unwrap();
             assert_eq!(recovered.work.mesh, work.mesh);
-            assert_eq!(recovered.work.mesh.as_ref().map(|mesh| mesh.options), Some(options));
+            assert_eq!(recovered.work.mesh.as_ref().map(|mesh| &mesh.options), Some(&options));
             assert!(recovered.is_changed());
             let mut older: serde_json::Value =
                 serde_json::from_slice(&std::fs::read(&found.file).unwrap()).unwrap();

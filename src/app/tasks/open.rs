@@ -22,7 +22,7 @@ pub fn read(request: &FileRequest) -> Result<OpenedFile, Failure> {
     let FileRequest { purpose, path, mesh } = request;
     match *purpose == OpeningPurpose::Anew && is_scene(path) {
         true => Ok(OpenedFile::Scene(Box::new(Preset::read(path)?))),
-        false => Ok(OpenedFile::Design(Box::new(Document::open(path, *mesh)?))),
+        false => Ok(OpenedFile::Design(Box::new(Document::open(path, mesh)?))),
     }
 }
 

@@ -68,7 +68,7 @@ fn a_second_choice_keeps_the_first_that_has_not_come_yet() {
     bench.wait(|editor| {
         editor.model.document.work.mesh.as_ref().is_some_and(|mesh| mesh.options != MeshOptions::default())
     });
-    assert_eq!(bench.editor().model.document.work.mesh.as_ref().map(|mesh| mesh.options), Some(both));
+    assert_eq!(bench.editor().model.document.work.mesh.as_ref().map(|mesh| &mesh.options), Some(&both));
 }
 
 #[test]

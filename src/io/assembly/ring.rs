@@ -113,7 +113,7 @@ mod tests {
         for (name, stones, across) in
             [("solitaire", 1, 16.5), ("four-prong", 1, 17.3), ("halo-ring", 17, 16.5), ("eternity", 27, 17.3)]
         {
-            let ring = Assembly::load(Path::new(name), None, None, MeshOptions::default()).unwrap();
+            let ring = Assembly::load(Path::new(name), None, None, &MeshOptions::default()).unwrap();
             assert_eq!((ring.scene.instances.len(), ring.scene.metals.len()), (stones, 1), "{name}");
             assert_eq!(ring.places.len(), stones, "{name}");
             let metal = &ring.scene.metals[0];
@@ -144,7 +144,7 @@ mod tests {
     fn a_ring_takes_another_material_and_size_and_says_what_does_not_fit() {
         let ruby = MaterialRef::Name("ruby".to_owned());
         let ruby =
-            Assembly::load(Path::new("halo-ring"), Some(&ruby), "7mm".parse().ok(), MeshOptions::default());
+            Assembly::load(Path::new("halo-ring"), Some(&ruby), "7mm".parse().ok(), &MeshOptions::default());
         let ruby = ruby.unwrap();
         assert!(ruby.scene.instances.iter().all(|stone| stone.material.name == "ruby"));
         assert_eq!((ruby.places[0].diameter_mm, ruby.places[1].diameter_mm), (7.0, 1.5));
@@ -160,7 +160,7 @@ mod tests {
         ] {
             let ring = format!("[ring]\nstyle = \"six-prong\"\nmetal = \"gold\"\n{stone}\n");
             std::fs::write(&path, format!("format = 1\nname = \"x\"\n{ring}")).unwrap();
-            let Err(Failure::Input(text)) = Assembly::load(&path, None, None, MeshOptions::default()) else {
+            let Err(Failure::Input(text)) = Assembly::load(&path, None, None, &MeshOptions::default()) else {
                 panic!("no input error")
             };
             let text = text.replace(&path.display().to_string(), "x.toml");

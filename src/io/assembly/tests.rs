@@ -4,7 +4,7 @@ use super::*;
 use crate::optics::material;
 
 fn load(file: impl AsRef<Path>) -> Assembly {
-    Assembly::load(file.as_ref(), None, None, MeshOptions::default()).unwrap()
+    Assembly::load(file.as_ref(), None, None, &MeshOptions::default()).unwrap()
 }
 
 /// Returns the error message for a scene file with these stones, its temporary path shortened to `x.toml`.
@@ -12,7 +12,7 @@ fn refused(stones: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.toml");
     std::fs::write(&path, format!("format = 1\nname = \"x\"\n{stones}")).unwrap();
-    let Err(Failure::Input(message)) = Assembly::load(&path, None, None, MeshOptions::default()) else {
+    let Err(Failure::Input(message)) = Assembly::load(&path, None, None, &MeshOptions::default()) else {
         panic!("no input error")
     };
     message.replace(&path.display().to_string(), "x.toml").replace(&folder.path().display().to_string(), "")
@@ -21,7 +21,7 @@ fn refused(stones: &str) -> String {
 #[test]
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
-    let specimen = BuiltDesign::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
+    let specimen = BuiltDesign::load(Path::new("modern-ideal"), &MeshOptions::default()).unwrap();
     assert_eq!(*stone.scene.instances[0].body.stone().unwrap(), *specimen.stone().unwrap());
     assert_eq!((stone.scene.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
     assert_eq!(stone.scene.instances[0].pose, Pose::STILL);
@@ -31,7 +31,7 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
         Path::new("modern-ideal"),
         Some(&MaterialRef::Name("Ruby".into())),
         "2ct".parse().ok(),
-        MeshOptions::default(),
+        &MeshOptions::default(),
     )
     .unwrap();
     assert_eq!(&ruby.scene.instances[0].material, material("ruby").unwrap());
@@ -40,7 +40,7 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
         Path::new("modern-ideal"),
         Some(&MaterialRef::Index(2.42)),
         "8mm".parse().ok(),
-        MeshOptions::default(),
+        &MeshOptions::default(),
     )
     .unwrap();
     assert_eq!((index.scene.unit_mm, index.carats()), (4.0, None));
@@ -48,7 +48,7 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
         Path::new("modern-ideal"),
         Some(&MaterialRef::Index(2.42)),
         "1ct".parse().ok(),
-        MeshOptions::default(),
+        &MeshOptions::default(),
     );
     assert!(matches!(heavy, Err(Failure::Input(_))));
 }
@@ -97,7 +97,7 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         Path::new("ring"),
         Some(&MaterialRef::Name("diamond".into())),
         "3mm".parse().ok(),
-        MeshOptions::default(),
+        &MeshOptions::default(),
     )
     .unwrap();
     assert!(small.places.iter().all(|p| p.diameter_mm == 3.0));
@@ -176,7 +176,7 @@ fn metal_lies_where_it_is_put_beside_stones_or_alone_and_may_cut_into_them() {
     let path = folder.path().join("x.toml");
     let scene = |tables: &str| {
         std::fs::write(&path, format!("format = 1\nname = \"x\"\n{tables}")).unwrap();
-        Assembly::load(&path, None, None, MeshOptions::default())
+        Assembly::load(&path, None, None, &MeshOptions::default())
     };
     let metal = "[[metal]]\nmesh = \"plate.obj\"\nmetal = \"gold\"\nturn = 90\nat = [1, 2, 3]\n";
     let both = scene(&format!("[[stone]]\ncut = \"tolkowsky\"\nsize = \"6mm\"\n{metal}")).unwrap().scene;

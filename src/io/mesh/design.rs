@@ -21,7 +21,7 @@ const USUAL: &str = "diamond";
 ///
 /// # Errors
 /// Fails where the mesh makes no stone; the error has the path and the place.
-pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
+pub fn read(bytes: Vec<u8>, path: &Path, options: &MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
     let MeshFile { format, surface, hint, statement, mut notes, mut warnings, name, .. } =
         file::parse(bytes, &label, path.parent())?;
@@ -29,7 +29,8 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
         surface.mend_closed().map_err(|error| unmended(&warnings, &error).in_file(&label))?;
     notes.extend(told_of(&mended));
     warnings.extend(left_open(&open));
-    let chosen = ChosenPart::of(&mended, options.part, statement.is_some()).map_err(|f| f.in_file(&label))?;
+    let chosen =
+        ChosenPart::of(&mended, &options.part, statement.is_some()).map_err(|f| f.in_file(&label))?;
     notes.extend(chosen.notes);
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
     let evening = options.evening;
@@ -261,7 +262,7 @@ mod tests {
             println!("SKIPPED: {} is not there", path.display());
             return;
         };
-        let open = |form| read(bytes.clone(), path, MeshOptions { form, ..MeshOptions::default() }).unwrap();
+        let open = |form| read(bytes.clone(), path, &MeshOptions { form, ..MeshOptions::default() }).unwrap();
         let found = open(MeshForm::Found);
         let notes = found.notes.join("\n");
         assert!(found.warnings.is_empty() && notes.contains("69 facets were found"), "{notes}");
@@ -291,7 +292,7 @@ mod tests {
             (corners + &triangles.iter().map(face).collect::<String>()).into_bytes()
         };
         let open = |bytes: Vec<u8>, form| {
-            read(bytes, Path::new("x.obj"), MeshOptions { form, ..MeshOptions::default() })
+            read(bytes, Path::new("x.obj"), &MeshOptions { form, ..MeshOptions::default() })
         };
         let heart = obj(crate::math::fixture::heart());
         let found = open(heart.clone(), MeshForm::Found).unwrap();
@@ -338,7 +339,7 @@ mod tests {
         let larger: String = obj.lines().map(scaled).collect();
         let open = |text: &str| {
             let options = MeshOptions { up: Up::Given(DVec3::Z), ..MeshOptions::default() };
-            read(text.as_bytes().to_vec(), Path::new("t.obj"), options).unwrap()
+            read(text.as_bytes().to_vec(), Path::new("t.obj"), &options).unwrap()
         };
         let warnings = open(&larger).warnings.join("; ");
         assert!(
@@ -362,7 +363,7 @@ mod tests {
             write_obj(&specimen.body, "t", 1.0, None).into_bytes(),
             write_stl(&specimen.body, 3.0, None).unwrap(),
         ] {
-            let brought = read(bytes, Path::new("t"), MeshOptions::default()).unwrap();
+            let brought = read(bytes, Path::new("t"), &MeshOptions::default()).unwrap();
             let Cut::Planes(planes) = &brought.design.cut else { panic!("concave") };
             assert_eq!(planes.len(), count);
             let again = Specimen::new(brought.design).unwrap().solid().volume();

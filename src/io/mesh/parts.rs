@@ -36,7 +36,7 @@ impl ChosenPart {
     ///
     /// # Errors
     /// Fails where there is no such solid; the error lists those that there are.
-    pub fn of(mended: &Mended, asked: MeshPart, is_stated: bool) -> Result<Self, Fault> {
+    pub fn of(mended: &Mended, asked: &MeshPart, is_stated: bool) -> Result<Self, Fault> {
         let parts = &mended.parts;
         let labels: Vec<String> = parts.iter().enumerate().map(|(place, part)| label(place, part)).collect();
         let chosen = match asked {

@@ -45,7 +45,7 @@ pub(super) struct MeshPlace {
 
 impl MeshPlace {
     /// Starts from a file's format. A direction up and a unit that a person gives count above all else.
-    pub fn of(format: MeshFormat, options: MeshOptions, statement: Option<Statement>) -> Self {
+    pub fn of(format: MeshFormat, options: &MeshOptions, statement: Option<Statement>) -> Self {
         let given = match options.up {
             // The standard of glTF has y up. The other formats state no direction, and stones are usually modelled
             // with z up.

@@ -258,7 +258,7 @@ impl StoneForm {
     fn of(entry: &Entry, is_placed: bool) -> Self {
         Self {
             cut: entry.cut.clone(),
-            part: Some(entry.part).filter(|part| *part != MeshPart::Found).map(PartForm),
+            part: Some(entry.part.clone()).filter(|part| *part != MeshPart::Found).map(PartForm),
             material: entry.material.as_ref().map(MaterialForm::of),
             size: entry.size.map(SizeForm),
             count: entry.count as i64,

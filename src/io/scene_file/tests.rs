@@ -74,14 +74,14 @@ fn a_stone_may_be_one_of_several_bodies_of_a_mesh() {
     for (given, part) in [
         ("2", MeshPart::Number(2)),
         ("\"2\"", MeshPart::Number(2)),
-        ("\"left\"", MeshPart::Named("left")),
+        ("\"left\"", MeshPart::Named("left".into())),
         ("\"all\"", MeshPart::All),
     ] {
         let text = with(PLACED, "at = [0, 0, 0]", &format!("part = {given}\nat = [0, 0, 0]"));
         let scene = parse(&text, "x.toml", None).unwrap();
-        assert_eq!((scene.stones[0].part, scene.stones[1].part), (part, MeshPart::Found));
+        assert_eq!((&scene.stones[0].part, &scene.stones[1].part), (&part, &MeshPart::Found));
         let again = parse(&write(&scene), "again.toml", None).unwrap();
-        assert_eq!((again.stones[0].part, again.stones[1].part), (part, MeshPart::Found));
+        assert_eq!((&again.stones[0].part, &again.stones[1].part), (&part, &MeshPart::Found));
     }
     for given in ["0", "\"\"", "[1]"] {
         let text = with(PLACED, "at = [0, 0, 0]", &format!("part = {given}\nat = [0, 0, 0]"));

@@ -261,7 +261,7 @@ impl Model {
         let mesh = self.document.work.mesh.as_ref()?;
         let pending = self.session.awaited.opening.iter().map(|opening| &opening.request);
         let mut anew = pending.filter(|r| r.purpose == OpeningPurpose::Otherwise && r.path == mesh.path);
-        Some(anew.next().map_or(mesh.options, |request| request.mesh))
+        Some(anew.next().map_or(&mesh.options, |request| &request.mesh).clone())
     }
 }
 
@@ -346,7 +346,7 @@ fn restore(model: &mut Model, tasks: &mut Vec<Task>, found: RecoveredWork) {
     match &found.path {
         Some(path) => {
             let (path, mesh) =
-                (path.clone(), found.mesh.as_ref().map(|mesh| mesh.options).unwrap_or_default());
+                (path.clone(), found.mesh.as_ref().map(|mesh| mesh.options.clone()).unwrap_or_default());
             model.session.safe.restoring = Some(Box::new(found));
             open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Anew, path, mesh });
         }

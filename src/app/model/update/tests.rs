@@ -371,7 +371,7 @@ fn a_mesh_is_asked_for_with_its_options_again_after_the_question() {
     let mut bench = Bench::new();
     let mesh = MeshOptions { form: crate::io::mesh_options::MeshForm::Triangles, ..MeshOptions::default() };
     bench.act(Edit::Diameter(7.0));
-    bench.act(FileAction::Ask(Then::Open("scan.stl".into(), mesh)));
+    bench.act(FileAction::Ask(Then::Open("scan.stl".into(), mesh.clone())));
     let request = request(bench.act(DialogAction::GiveUp));
     assert_eq!((request.mesh, request.purpose), (mesh, OpeningPurpose::Anew));
 }

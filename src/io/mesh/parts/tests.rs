@@ -39,7 +39,7 @@ fn open(bytes: &[u8], part: &str) -> Result<ImportedDesign, FileError> {
     read(
         bytes.to_vec(),
         Path::new("f.obj"),
-        MeshOptions { part: MeshPart::from(part), ..MeshOptions::default() },
+        &MeshOptions { part: MeshPart::from(part), ..MeshOptions::default() },
     )
 }
 
@@ -144,10 +144,10 @@ fn a_heap_that_this_program_wrote_is_read_as_it_was() {
     let bytes = obj(&[("a", prism(6, 1.0, DVec3::ZERO, false)), ("b", prism(6, 1.0, DVec3::X * 5.0, false))]);
     let form = MeshForm::Triangles;
     let options = MeshOptions { part: MeshPart::All, form, ..MeshOptions::default() };
-    let first = read(bytes, Path::new("f.obj"), options).unwrap().design;
+    let first = read(bytes, Path::new("f.obj"), &options).unwrap().design;
     let made = Specimen::new(first.clone()).unwrap();
     let text = crate::io::write_obj(&made.body, "heap", made.unit_mm(), None);
-    let again = read(text.into_bytes(), Path::new("f.obj"), MeshOptions::default()).unwrap();
+    let again = read(text.into_bytes(), Path::new("f.obj"), &MeshOptions::default()).unwrap();
     assert!(again.warnings.is_empty(), "{:?}", again.warnings);
     let again = Specimen::new(again.design).unwrap();
     assert!((again.solid().volume() - made.solid().volume()).abs() < 1e-9);

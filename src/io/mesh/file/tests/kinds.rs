@@ -126,7 +126,8 @@ fn the_length_of_a_binary_stl_gives_the_number_of_its_triangles() {
     }
     // A file that was cut off says so, because the hole is the consequence.
     let path = Path::new("f.stl");
-    let error = crate::io::mesh::read(stl[..stl.len() - 120].to_vec(), path, Default::default()).unwrap_err();
+    let error =
+        crate::io::mesh::read(stl[..stl.len() - 120].to_vec(), path, &Default::default()).unwrap_err();
     let text = error.to_string();
     assert!(text.contains("the last one has been cut off; the surface is open"), "{text}");
 }
