@@ -64,7 +64,7 @@ impl Convert {
 
 /// Returns the stone with its tiers at the distances that follow from their meets.
 fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
-    let LoadedSpecimen { path, made, errors } = specimen;
+    let LoadedSpecimen { path, made, errors, bodies } = specimen;
     let Some(meets) = KnownMeets::of(&made) else {
         let why = made.why_not_convex().unwrap_or_default();
         return Err(Failure::Input(format!(
@@ -75,6 +75,8 @@ fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
     let cut = Cut::Tiers(meets.followed(&path));
     let design = made.design.clone();
     let made = made.remade(Design { cut, ..design });
-    made.map(|made| LoadedSpecimen { path: path.clone(), made, errors: errors.clone() })
-        .map_err(|error| Failure::Input(format!("{path}: with its meets: {error}")))
+    match made {
+        Ok(made) => Ok(LoadedSpecimen { path, made, errors, bodies }),
+        Err(error) => Err(Failure::Input(format!("{path}: with its meets: {error}"))),
+    }
 }

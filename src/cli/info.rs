@@ -14,6 +14,7 @@ use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::io::assembly::{Assembly, MadeRing};
 use crate::io::built_design::is_scene;
+use crate::io::mesh::MeshBody;
 use crate::math::{Facet, Polytope, fixed, rounded};
 use crate::scene::{ALLOYS, Alloy, Body};
 use clap::Args;
@@ -249,6 +250,9 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
         let derived = brilliant.derived().map_err(|e| Failure::Input(format!("{}: {e}", specimen.path)))?;
         value["derived"] = json!(derived);
     }
+    if !specimen.bodies.is_empty() {
+        value["bodies"] = specimen.bodies.iter().map(body_json).collect();
+    }
     let (low, high) = specimen.solid().bounds();
     value["volume"] = json!(specimen.solid().volume());
     value["size"] = json!((high - low).to_array());
@@ -281,6 +285,18 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     value["facets"] =
         facets.map(|(facet, name)| facet_json(polytope, facet, name, specimen.error(name))).collect();
     Ok(value)
+}
+
+fn body_json(body: &MeshBody) -> Value {
+    json!({
+        "number": body.number,
+        "name": body.name,
+        "triangles": body.triangles,
+        "is_closed": body.number.is_some(),
+        "extent": body.extent.to_array(),
+        "inside": body.within,
+        "is_read": body.is_read,
+    })
 }
 
 fn facet_json(polytope: &Polytope, facet: &Facet, name: &str, error: Option<&FacetError>) -> Value {

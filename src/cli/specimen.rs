@@ -4,7 +4,8 @@ use super::console::say;
 use crate::cut::from_mesh::FacetError;
 use crate::cut::{MaterialError, MaterialRef, Size};
 use crate::io::assembly::Assembly;
-use crate::io::built_design::BuiltDesign;
+use crate::io::built_design::{BuiltDesign, OtherReadings};
+use crate::io::mesh::MeshBody;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, is_standard};
 use crate::measure::MeasureName;
@@ -24,6 +25,8 @@ pub struct LoadedSpecimen {
     pub made: scene::Specimen,
     /// The standard errors of the facets of a scan; empty for other designs.
     pub errors: Vec<FacetError>,
+    /// The first 256 bodies of a mesh that has several; empty for any other design.
+    pub bodies: Vec<MeshBody>,
 }
 
 impl Deref for LoadedSpecimen {
@@ -38,18 +41,11 @@ impl LoadedSpecimen {
     /// Reads a design, or takes by its name a cut that comes with the program, and builds the stone. Prints notes and
     /// warnings about it.
     pub fn load(file: &Path, mesh: &MeshOptions) -> Result<Self, Failure> {
-        let BuiltDesign { path, made, remarks, parts, has_other_reading, errors } =
-            BuiltDesign::load(file, mesh)?;
-        remarks.iter().for_each(|remark| say(remark));
-        if !parts.is_empty() {
-            say(&format!(
-                "note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"
-            ));
-        }
-        if has_other_reading {
-            say(&format!("note: {path}: --as and --up choose how it is read"));
-        }
-        Ok(Self { path, made, errors })
+        let read = BuiltDesign::load(file, mesh)?;
+        read.remarks.iter().for_each(|remark| say(remark));
+        note_readings(&read.other_readings());
+        let BuiltDesign { path, made, errors, bodies, .. } = read;
+        Ok(Self { path, made, errors, bodies })
     }
 
     /// Returns the standard errors of the facet of a name, where the stone was found in a scan.
@@ -59,7 +55,7 @@ impl LoadedSpecimen {
 
     /// Returns the same stone with another material (a name or an index) and size, where one of them is `Some`.
     pub fn made_of(self, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
-        let Self { path, made, errors } = self;
+        let Self { path, made, errors, bodies } = self;
         let mut design = made.design.clone();
         let mut of = made.material.clone();
         if let Some(text) = material {
@@ -70,7 +66,7 @@ impl LoadedSpecimen {
             design.diameter_mm = diameter.map_err(|e| Failure::Input(format!("{path}: size: {e}")))?;
         }
         let made = made.remade(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
-        Ok(Self { path, made, errors })
+        Ok(Self { path, made, errors, bodies })
     }
 
     /// Returns the stone with its facets. `what` begins the message where there is none: what the command does of which
@@ -100,7 +96,19 @@ pub fn load_assembly(
     let material = material.map(|text| asked_material(text).map(|(named, _)| named)).transpose()?;
     let assembly = Assembly::load(file, material.as_ref(), size, mesh)?;
     assembly.remarks.iter().for_each(|remark| say(remark));
+    assembly.other_readings.iter().for_each(note_readings);
     Ok(assembly)
+}
+
+/// Prints which options read a file in another way.
+fn note_readings(other: &OtherReadings) {
+    let path = &other.path;
+    if other.of_bodies {
+        say(&format!("note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"));
+    }
+    if other.of_shape {
+        say(&format!("note: {path}: --as and --up choose how it is read"));
+    }
 }
 
 /// Parses the value of `--material`: a material's name or a refractive index.

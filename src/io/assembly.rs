@@ -1,7 +1,7 @@
 //! The bodies that a picture under light shows: a single stone, or the stones and the metal of a scene in their places.
 
 use super::background::BackgroundRef;
-use super::built_design::BuiltDesign;
+use super::built_design::{BuiltDesign, OtherReadings};
 use super::mesh::read_shaded;
 use super::mesh_options::{MeshOptions, MeshPart};
 use super::scene_file::{self, Entry, MetalEntry, SceneFile};
@@ -59,6 +59,8 @@ pub struct Assembly {
     pub ring: Option<MadeRing>,
     /// Notes and warnings about the files that were read, each with its path, as they are printed.
     pub remarks: Vec<String>,
+    /// Whether other options read the files of the stones in another way, in the order in which they were read.
+    pub other_readings: Vec<OtherReadings>,
 }
 
 /// A ring that was made for a scene.
@@ -130,6 +132,7 @@ impl Assembly {
         material: Option<&MaterialRef>,
         size: Option<Size>,
     ) -> Result<Self, Failure> {
+        let other_readings = vec![stone.other_readings()];
         let BuiltDesign { path, made, remarks, .. } = stone;
         let refused = |message| Failure::Input(format!("{path}: {message}"));
         let named = named_material(&made, material, None).map_err(refused)?;
@@ -155,6 +158,7 @@ impl Assembly {
             light_upright: false,
             ring: None,
             remarks,
+            other_readings,
         })
     }
 
@@ -165,8 +169,7 @@ impl Assembly {
         (size, mesh): (Option<Size>, &MeshOptions),
     ) -> Result<Self, Failure> {
         let path = file.display().to_string();
-        let mut remarks = vec![];
-        let specimens = specimens(file, &scene, mesh, &mut remarks)?;
+        let ReadCuts { specimens, mut remarks, other_readings } = read_cuts(file, &scene, mesh)?;
         let member = |(number, entry): (usize, &Entry)| {
             let specimen = &specimens[&(entry.cut.clone(), entry.part.clone())];
             let description = format!("stone {} ({})", number + 1, entry.cut);
@@ -217,6 +220,7 @@ impl Assembly {
             light_upright: scene.light_upright,
             ring,
             remarks,
+            other_readings,
         })
     }
 
@@ -253,21 +257,35 @@ fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
 /// The name by which a scene calls a cut, and the body of it where it is a mesh of several.
 type CutKey = (String, MeshPart);
 
+/// The cuts of a scene, and the remarks about their files.
+#[derive(Default)]
+struct ReadCuts {
+    specimens: BTreeMap<CutKey, Arc<Specimen>>,
+    remarks: Vec<String>,
+    other_readings: Vec<OtherReadings>,
+}
+
+impl ReadCuts {
+    /// Takes a cut. Where its file has several bodies, the key may name the one that is meant.
+    fn take(&mut self, key: CutKey, read: BuiltDesign) {
+        let readings = read.other_readings();
+        let of_bodies = readings.of_bodies && key.1 == MeshPart::Found;
+        self.other_readings.push(OtherReadings { of_bodies, ..readings });
+        self.remarks.extend(read.remarks);
+        self.specimens.insert(key, Arc::new(read.made));
+    }
+}
+
 /// Reads each cut of a scene once, and each of its bodies that the scene takes.
-fn specimens(
-    file: &Path,
-    scene: &SceneFile,
-    mesh: &MeshOptions,
-    remarks: &mut Vec<String>,
-) -> Result<BTreeMap<CutKey, Arc<Specimen>>, Failure> {
-    let mut specimens = BTreeMap::new();
+fn read_cuts(file: &Path, scene: &SceneFile, mesh: &MeshOptions) -> Result<ReadCuts, Failure> {
+    let mut cuts = ReadCuts::default();
     let failed = |failure: Failure, place: &dyn Fn(&str) -> Failure| match failure {
         Failure::Input(message) => place(&message),
         other => other,
     };
     for (number, entry) in scene.stones.iter().enumerate() {
         let key = (entry.cut.clone(), entry.part.clone());
-        if !specimens.contains_key(&key) {
+        if !cuts.specimens.contains_key(&key) {
             // A scene that names no body leaves it to the options.
             let part = if entry.part == MeshPart::Found { &mesh.part } else { &entry.part };
             let mesh = MeshOptions { part: part.clone(), ..mesh.clone() };
@@ -275,20 +293,18 @@ fn specimens(
             let mut same = scene.stones.iter().filter(|other| other.cut == entry.cut);
             let mesh = if same.all(|other| other.size.is_some()) { mesh.sized(entry.size) } else { mesh };
             let read = built(file, &entry.cut, &mesh).map_err(|failure| failed(failure, &at))?;
-            remarks.extend(read.remarks);
-            specimens.insert(key, Arc::new(read.made));
+            cuts.take(key, read);
         }
     }
     for (key, cut, line) in scene.ring.iter().flat_map(ring::cuts) {
         let own = (cut.to_owned(), MeshPart::Found);
-        if !specimens.contains_key(&own) {
+        if !cuts.specimens.contains_key(&own) {
             let at = |message: &str| ring::at_ring(file, line, &format!("{key}: {message}"));
             let read = built(file, cut, mesh).map_err(|failure| failed(failure, &at))?;
-            remarks.extend(read.remarks);
-            specimens.insert(own, Arc::new(read.made));
+            cuts.take(own, read);
         }
     }
-    Ok(specimens)
+    Ok(cuts)
 }
 
 /// Reads one cut of a scene: a cut that comes with the program, or a file relative to the scene's folder. Where both exist,

@@ -3,12 +3,24 @@
 use super::cut_file;
 use super::design_file::{self, ImportedDesign};
 use super::library::{self, CUTS, SCENES};
+use super::mesh::MeshBody;
 use super::mesh_options::MeshOptions;
 use super::{Failure, FileError, is_standard, nearest, scene_file};
 use crate::cut::from_mesh::FacetError;
 use crate::scene::Specimen;
 use std::ops::Deref;
 use std::path::Path;
+
+/// Whether other options read a file in another way, as the remarks about it say.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OtherReadings {
+    /// The path of the file.
+    pub path: String,
+    /// True for a mesh of several bodies, of which another may be chosen.
+    pub of_bodies: bool,
+    /// True for a mesh that may be read in another form or direction.
+    pub of_shape: bool,
+}
 
 /// The end of the message about a scene where a design is expected.
 const IS_SCENE: &str = "this is a scene, where the file or the name of a cut is expected";
@@ -22,8 +34,8 @@ pub struct BuiltDesign {
     pub made: Specimen,
     /// Notes and warnings, each with the path, as they are printed.
     pub remarks: Vec<String>,
-    /// How the remarks call the solids of a mesh that has several; empty for any other design.
-    pub parts: Vec<String>,
+    /// The first 256 bodies of a mesh that has several; empty for any other design.
+    pub bodies: Vec<MeshBody>,
     /// True for a mesh that other options would read in another way, as its remarks say.
     pub has_other_reading: bool,
     /// The standard errors of the facets of a scan; empty for other designs.
@@ -73,16 +85,22 @@ impl BuiltDesign {
         Self::of(path.to_owned(), ImportedDesign::of(design))
     }
 
+    /// Returns whether other options read the file in another way.
+    pub fn other_readings(&self) -> OtherReadings {
+        let of_bodies = MeshBody::leave_a_choice(&self.bodies);
+        OtherReadings { path: self.path.clone(), of_bodies, of_shape: self.has_other_reading }
+    }
+
     fn of(
         path: String,
-        ImportedDesign { design, notes, warnings, parts, has_other_reading, errors, .. }: ImportedDesign,
+        ImportedDesign { design, notes, warnings, bodies, has_other_reading, errors, .. }: ImportedDesign,
     ) -> Result<Self, Failure> {
         let made = Specimen::new(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
         let notes = notes.iter().map(|note| format!("note: {path}: {note}"));
         let unusual = made.unusual.iter().map(ToString::to_string);
         let warnings = warnings.into_iter().chain(unusual).chain(made.warnings.iter().cloned());
         let remarks = notes.chain(warnings.map(|w| format!("warning: {path}: {w}"))).collect();
-        Ok(Self { path, made, remarks, parts, has_other_reading, errors })
+        Ok(Self { path, made, remarks, bodies, has_other_reading, errors })
     }
 }
 

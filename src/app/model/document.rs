@@ -114,8 +114,9 @@ impl Document {
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
     pub fn open(path: &Path, mesh: &MeshOptions) -> Result<Self, FileError> {
-        let ImportedDesign { mut design, notes, warnings, doubt, parts, .. } =
-            design_file::read_with(path, mesh)?;
+        let imported = design_file::read_with(path, mesh)?;
+        let parts = imported.choices();
+        let ImportedDesign { mut design, notes, warnings, doubt, .. } = imported;
         adopt_meets(&mut design);
         let mut document = Self::new(design, Some(path.to_owned()))
             .map_err(|error| FileError::new(path.display(), error))?;

@@ -2,6 +2,7 @@
 
 use crate::cut::Design;
 use crate::cut::from_mesh::FacetError;
+use crate::io::mesh::MeshBody;
 
 /// A design that was read from a file, with notes and warnings.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,8 +15,9 @@ pub struct ImportedDesign {
     pub warnings: Vec<String>,
     /// For a mesh, true where its shape leaves a doubt which way its table faces; `None` for other designs.
     pub doubt: Option<bool>,
-    /// How messages call the solids of a mesh that has several, in the order of their numbers; empty for any other design.
-    pub parts: Vec<String>,
+    /// The first 256 bodies of a mesh that has several, the closed ones first, in the order of their numbers; empty for any
+    /// other design.
+    pub bodies: Vec<MeshBody>,
     /// True for a mesh whose notes say that other [`MeshOptions`](crate::io::mesh_options::MeshOptions) read it in another
     /// way.
     pub has_other_reading: bool,
@@ -26,7 +28,16 @@ pub struct ImportedDesign {
 impl ImportedDesign {
     /// Wraps a design without notes and warnings.
     pub fn of(design: Design) -> Self {
-        let (notes, warnings, parts, errors) = (vec![], vec![], vec![], vec![]);
-        Self { design, notes, warnings, doubt: None, parts, has_other_reading: false, errors }
+        let (notes, warnings, bodies, errors) = (vec![], vec![], vec![], vec![]);
+        Self { design, notes, warnings, doubt: None, bodies, has_other_reading: false, errors }
+    }
+
+    /// Returns how messages call the bodies of a mesh of which one may be chosen, in the order of their numbers; none where
+    /// there is no choice.
+    pub fn choices(&self) -> Vec<String> {
+        if !MeshBody::leave_a_choice(&self.bodies) {
+            return vec![];
+        }
+        self.bodies.iter().filter(|body| body.number.is_some()).map(ToString::to_string).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Makes stones from meshes: a convex stone becomes planes, any other triangles.
 
 use super::file::{self, MaterialHint, MeshFile};
-use super::parts::{ChosenPart, left_open};
+use super::parts::ChosenPart;
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
 use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, directions, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
@@ -28,10 +28,10 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: &MeshOptions) -> Result<Import
     let (mended, open) =
         surface.mend_closed().map_err(|error| unmended(&warnings, &error).in_file(&label))?;
     notes.extend(told_of(&mended));
-    warnings.extend(left_open(&open));
-    let chosen =
-        ChosenPart::of(&mended, &options.part, statement.is_some()).map_err(|f| f.in_file(&label))?;
+    let chosen = ChosenPart::of(&mended, open, &options.part, statement.is_some());
+    let chosen = chosen.map_err(|fault| fault.in_file(&label))?;
     notes.extend(chosen.notes);
+    warnings.extend(chosen.warning);
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
     let evening = options.evening;
     let file = File { hint, name, place: MeshPlace::of(format, options, statement), evening };
@@ -51,7 +51,7 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: &MeshOptions) -> Result<Import
     .map_err(|fault| fault.in_file(&label))?;
     brought.notes.splice(0..0, notes);
     brought.warnings.splice(0..0, warnings);
-    Ok(ImportedDesign { parts: chosen.parts, ..brought })
+    Ok(ImportedDesign { bodies: chosen.bodies, ..brought })
 }
 
 /// Returns the fault of a surface that cannot be mended, behind the warnings about what was left out of it: they may be the

@@ -27,3 +27,4 @@ pub use design::read;
 pub use export::{FINENESS, Stated, stated_in_stl, write_glb, write_obj, write_ply, write_stl};
 pub use file::{MAX_BYTES, MaterialHint, MeshFile, looks_like, parse};
 pub use metal::{read_shaded, write_shaded};
+pub use parts::MeshBody;

@@ -2,9 +2,10 @@
 
 use crate::io::file_error::Fault;
 use crate::io::mesh_options::MeshPart;
-use crate::math::Surface;
 use crate::math::mending::{Mended, OpenPiece, SolidPart};
+use crate::math::{Surface, bounds};
 use glam::DVec3;
+use std::fmt::{self, Display, Formatter};
 
 /// The number of sides of a box. A solid of no more is furniture, where there is another.
 const BOX: usize = 6;
@@ -22,13 +23,72 @@ const MOST_LISTED: usize = 256;
 /// The most solids and pieces that a message names.
 const MOST_NAMED: usize = 8;
 
+/// A body of a mesh that has several.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshBody {
+    /// The number, from 1, by which it can be chosen; `None` for a piece that is no closed surface, which is left out.
+    pub number: Option<usize>,
+    /// The name in the file; may be empty.
+    pub name: String,
+    /// The number of its triangles.
+    pub triangles: usize,
+    /// Its lengths along the file's x, y and z, in the file's unit.
+    pub extent: DVec3,
+    /// The number of the body that it lies inside, if there is one.
+    pub within: Option<usize>,
+    /// True where the design was made of it.
+    pub is_read: bool,
+}
+
+impl MeshBody {
+    /// Returns whether one of the bodies may be chosen.
+    pub fn leave_a_choice(bodies: &[Self]) -> bool {
+        bodies.iter().filter(|body| body.number.is_some()).count() > 1
+    }
+
+    /// Describes the solid at a place among the parts, the one that is `chosen`, or each where all are.
+    fn of(surface: &Surface, place: usize, part: &SolidPart, chosen: Option<usize>) -> Self {
+        let corners = part.places().flat_map(|t| surface.triangles[t]);
+        let (low, high) = bounds(corners.map(|corner| surface.vertices[corner as usize]));
+        Self {
+            number: Some(place + 1),
+            name: part.name.clone(),
+            triangles: part.triangles(),
+            extent: high - low,
+            within: part.within.map(|around| around + 1),
+            is_read: chosen.is_none_or(|chosen| chosen == place),
+        }
+    }
+
+    fn open(piece: OpenPiece) -> Self {
+        let OpenPiece { name, triangles, extent } = piece;
+        Self { number: None, name, triangles, extent, within: None, is_read: false }
+    }
+}
+
+impl Display for MeshBody {
+    /// Writes how messages call the body: by its number, its name and what is around it.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let count = counted(self.triangles);
+        let within = self.within.map(|around| format!(", inside {around}")).unwrap_or_default();
+        match (self.number, self.name.as_str()) {
+            (Some(number), "") => write!(f, "{number} ({count}{within})"),
+            (Some(number), name) => write!(f, "{number} `{name:.60}` ({count}{within})"),
+            (None, "") => write!(f, "a part without a name ({count})"),
+            (None, name) => write!(f, "`{name:.60}` ({count})"),
+        }
+    }
+}
+
 /// The solid that is read.
 pub(super) struct ChosenPart {
     pub surface: Surface,
     /// Notes on the other solids.
     pub notes: Vec<String>,
-    /// How each of the first solids is called, in order; empty where there is one.
-    pub parts: Vec<String>,
+    /// The warning about pieces that were left out because they are open.
+    pub warning: Option<String>,
+    /// The first of the solids, and behind them of the open pieces; empty where there is one in all.
+    pub bodies: Vec<MeshBody>,
 }
 
 impl ChosenPart {
@@ -36,18 +96,22 @@ impl ChosenPart {
     ///
     /// # Errors
     /// Fails where there is no such solid; the error lists those that there are.
-    pub fn of(mended: &Mended, asked: &MeshPart, is_stated: bool) -> Result<Self, Fault> {
+    pub fn of(
+        mended: &Mended,
+        open: Vec<OpenPiece>,
+        asked: &MeshPart,
+        is_stated: bool,
+    ) -> Result<Self, Fault> {
         let parts = &mended.parts;
-        let labels: Vec<String> = parts.iter().enumerate().map(|(place, part)| label(place, part)).collect();
         let chosen = match asked {
             MeshPart::All => None,
             MeshPart::Found if is_stated => None,
             MeshPart::Found => largest(mended),
             MeshPart::Number(number) => {
                 let place = number.checked_sub(1).filter(|place| *place < parts.len());
-                Some(place.ok_or_else(|| missing(&number.to_string(), &labels))?)
+                Some(place.ok_or_else(|| missing(&number.to_string(), mended))?)
             }
-            MeshPart::Named(name) => Some(named(name, parts, &labels)?),
+            MeshPart::Named(name) => Some(named(name, mended)?),
         };
         let own = chosen.map(|place| &parts[place]);
         let is_whole = own.is_none_or(|part| part.triangles() == mended.surface.triangles.len());
@@ -55,24 +119,36 @@ impl ChosenPart {
             Some(part) if !is_whole => mended.part(part),
             _ => mended.surface.clone(),
         };
-        let several = (parts.len() > 1).then(|| {
-            let read =
-                chosen.map_or("all are read as one".to_owned(), |place| format!("{} is read", place + 1));
-            let kind = if parts.iter().any(|part| part.within.is_some()) {
-                "bodies are in the file, one inside another"
-            } else {
-                "separate bodies are in the file"
-            };
-            format!("{} {kind}: {}; {read}", parts.len(), listed(&labels, "; "))
-        });
         let hollow = own.filter(|part| part.cavities() > 0).map(|part| match part.cavities() {
             1 => "it is hollow: a shell inside it faces inward".to_owned(),
             count => format!("it is hollow: {count} shells inside it face inward"),
         });
-        let notes = several.into_iter().chain(hollow).collect();
-        let listed = if parts.len() > 1 { labels.into_iter().take(MOST_LISTED).collect() } else { vec![] };
-        Ok(Self { surface, notes, parts: listed })
+        let notes = several(mended, chosen).into_iter().chain(hollow).collect();
+        let closed = bodies(mended, chosen);
+        let is_one = closed.len() + open.len() < 2;
+        let open: Vec<MeshBody> = open.into_iter().map(MeshBody::open).collect();
+        let warning = left_open(&open);
+        let all = closed.into_iter().chain(open).take(if is_one { 0 } else { MOST_LISTED });
+        Ok(Self { surface, notes, warning, bodies: all.collect() })
     }
+}
+
+/// Returns the note on a file of several solids, of which one is chosen, or all.
+fn several(mended: &Mended, chosen: Option<usize>) -> Option<String> {
+    let parts = &mended.parts;
+    let count = parts.len();
+    let read = chosen.map_or("all are read as one".to_owned(), |place| format!("{} is read", place + 1));
+    let kind = match parts.iter().any(|part| part.within.is_some()) {
+        true => "bodies are in the file, one inside another",
+        false => "separate bodies are in the file",
+    };
+    (count > 1).then(|| format!("{count} {kind}: {}; {read}", listed(&bodies(mended, chosen))))
+}
+
+/// Returns the solids of a surface, of which one is chosen, or all.
+fn bodies(mended: &Mended, chosen: Option<usize>) -> Vec<MeshBody> {
+    let parts = mended.parts.iter().enumerate();
+    parts.map(|(place, part)| MeshBody::of(&mended.surface, place, part, chosen)).collect()
 }
 
 /// Returns the largest solid that is more than a box, or the largest of all; of equals the first.
@@ -104,54 +180,46 @@ fn sides(surface: &Surface, part: &SolidPart) -> usize {
 }
 
 /// Returns the solid of a name, whatever the case of its letters.
-fn named(name: &str, parts: &[SolidPart], labels: &[String]) -> Result<usize, Fault> {
+fn named(name: &str, mended: &Mended) -> Result<usize, Fault> {
+    let parts = &mended.parts;
     let is = |part: &SolidPart| part.name.to_lowercase() == name.trim().to_lowercase();
     let found: Vec<usize> = (0..parts.len()).filter(|&place| is(&parts[place])).collect();
     match found[..] {
-        [] => Err(missing(&format!("`{name:.60}`"), labels)),
+        [] => Err(missing(&format!("`{name:.60}`"), mended)),
         [place] => Ok(place),
         _ => Err(Fault::whole(format!(
             "{} bodies are called `{name:.60}`; choose one by its number: {}",
             found.len(),
-            listed(labels, "; ")
+            listed(&bodies(mended, None))
         ))),
     }
 }
 
-fn missing(asked: &str, labels: &[String]) -> Fault {
-    Fault::whole(format!("there is no body {asked} in the file, which has {}", listed(labels, "; ")))
-}
-
-/// Returns how a message calls a solid: by its number, its name and what is around it.
-fn label(place: usize, part: &SolidPart) -> String {
-    let name = if part.name.is_empty() { String::new() } else { format!(" `{:.60}`", part.name) };
-    let within = part.within.map(|around| format!(", inside {}", around + 1)).unwrap_or_default();
-    format!("{}{name} ({}{within})", place + 1, counted(part.triangles()))
+fn missing(asked: &str, mended: &Mended) -> Fault {
+    let all = listed(&bodies(mended, None));
+    Fault::whole(format!("there is no body {asked} in the file, which has {all}"))
 }
 
 fn counted(triangles: usize) -> String {
     if triangles == 1 { "1 triangle".to_owned() } else { format!("{triangles} triangles") }
 }
 
-/// Joins labels, up to a number of them.
-fn listed(labels: &[String], joint: &str) -> String {
-    let more = labels.len().saturating_sub(MOST_NAMED);
-    let more = if more > 0 { format!("{joint}and {more} more") } else { String::new() };
-    labels[..labels.len().min(MOST_NAMED)].join(joint) + &more
+/// Joins how messages call bodies, up to a number of them.
+fn listed(bodies: &[MeshBody]) -> String {
+    let mut named: Vec<String> = bodies.iter().take(MOST_NAMED).map(ToString::to_string).collect();
+    let more = bodies.len().saturating_sub(MOST_NAMED);
+    named.extend((more > 0).then(|| format!("and {more} more")));
+    named.join("; ")
 }
 
 /// Returns the warning about pieces that were left out because they are open.
-pub(super) fn left_open(pieces: &[OpenPiece]) -> Option<String> {
-    let name = |piece: &OpenPiece| match piece.name.as_str() {
-        "" => format!("a part without a name ({})", counted(piece.triangles)),
-        name => format!("`{name:.60}` ({})", counted(piece.triangles)),
-    };
-    let names: Vec<String> = pieces.iter().map(name).collect();
-    match pieces.len() {
-        0 => None,
-        1 => Some(format!("{} is no closed surface and is left out", names[0])),
-        count => {
-            Some(format!("{count} parts are no closed surfaces and are left out: {}", listed(&names, "; ")))
+fn left_open(pieces: &[MeshBody]) -> Option<String> {
+    match pieces {
+        [] => None,
+        [piece] => Some(format!("{piece} is no closed surface and is left out")),
+        pieces => {
+            let count = pieces.len();
+            Some(format!("{count} parts are no closed surfaces and are left out: {}", listed(pieces)))
         }
     }
 }

@@ -4,6 +4,7 @@ use super::parts::{name, taken};
 use super::{CRACKS, Mended, SurfaceError, weld};
 use crate::math::Surface;
 use crate::math::edges::{Edges, ends};
+use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
 
 /// The most pieces that are mended one by one; more of them are rubble.
@@ -20,6 +21,8 @@ pub struct OpenPiece {
     pub name: String,
     /// The number of its triangles.
     pub triangles: usize,
+    /// Its lengths along the axes, in the surface's unit.
+    pub extent: DVec3,
 }
 
 impl Surface {
@@ -56,9 +59,10 @@ impl Surface {
         }
         closed.sort_unstable();
         let mended = taken(&exact, closed.into_iter().map(|t| t as usize)).mend()?;
-        let open = open
-            .into_iter()
-            .map(|(piece, _)| OpenPiece { name: name(&exact, piece), triangles: piece.len() });
+        let open = open.into_iter().map(|(piece, own)| {
+            let (low, high) = own.bounds();
+            OpenPiece { name: name(&exact, piece), triangles: piece.len(), extent: high - low }
+        });
         Ok((mended, open.collect()))
     }
 }

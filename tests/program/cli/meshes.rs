@@ -117,6 +117,8 @@ fn one_of_several_bodies_is_chosen_by_its_number_or_name_in_every_command() {
             let list = "2 separate bodies are in the file: 1 `low` (6 triangles); 2 `high`";
             assert!(code == 0 && stderr.contains(list) && stderr.contains(read), "{command}: {stderr}");
             assert!(stderr.contains("is no closed surface and is left out"), "{command}: {stderr}");
+            let choice = "note: two.obj: --part NUMBER, --part NAME or --part all chooses";
+            assert!(stderr.contains(choice), "{command}: {stderr}");
         }
     }
     let (code, _, stderr) = desk.run("info --part 3 two.obj");
@@ -124,8 +126,19 @@ fn one_of_several_bodies_is_chosen_by_its_number_or_name_in_every_command() {
         code != 0 && stderr.contains("two.obj: there is no body 3 in the file, which has 1 `low`"),
         "{stderr}"
     );
-    let (_, _, stderr) = desk.run("info two.obj");
-    assert!(stderr.contains("note: two.obj: --part NUMBER, --part NAME or --part all chooses"), "{stderr}");
+    desk.write("one.obj", &body("low", 1, 5));
+    let (_, printed, _) = desk.run("info --json one.obj");
+    assert!(printed.contains("triangles") && !printed.contains("bodies"), "{printed}");
+    let (_, printed, _) = desk.run("info --json --part low two.obj");
+    let value: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    let expected = [
+        r#"{"number":1,"name":"low","triangles":6,"is_closed":true,"extent":[2.0,2.0,1.0],"inside":null,"is_read":true}"#,
+        r#"{"number":2,"name":"high","triangles":6,"is_closed":true,"extent":[2.0,2.0,4.0],"inside":null,"is_read":false}"#,
+        r#"{"number":null,"name":"high","triangles":1,"is_closed":false,"extent":[1.0,1.0,0.0],"inside":null,"is_read":false}"#,
+    ];
+    let expected: Vec<serde_json::Value> =
+        expected.iter().map(|text| serde_json::from_str(text).unwrap()).collect();
+    assert_eq!(value["bodies"], serde_json::Value::Array(expected));
 }
 
 #[test]

@@ -68,7 +68,13 @@ fn separate_solids_are_counted_and_one_of_them_is_read() {
     let note = &found.notes[0];
     assert!(note.starts_with("4 separate bodies are in the file: 1 `box` ("), "{note}");
     assert!(note.contains("; 3 `Eight` (") && note.ends_with("; 3 is read"), "{note}");
-    assert_eq!(found.parts.len(), 4);
+    let sizes: Vec<_> = found.bodies.iter().map(|body| (body.number, body.is_read, body.extent.z)).collect();
+    assert_eq!(
+        sizes,
+        [(Some(1), false, 5.0), (Some(2), false, 1.0), (Some(3), true, 2.0), (Some(4), false, 2.0)]
+    );
+    assert_eq!((found.choices().len(), found.bodies[1].name.as_str()), (4, "six"));
+    assert_eq!(found.bodies[2].extent.x, 4.0);
     for (part, count) in [("1", 6), ("2", 8), ("six", 8), ("eight", 10), ("all", 0), ("4", 10)] {
         assert_eq!(facets(&open(&bytes, part).unwrap()), count, "{part}");
     }
@@ -81,7 +87,7 @@ fn separate_solids_are_counted_and_one_of_them_is_read() {
     assert!(error.contains("2 bodies are called `a`; choose one by its number: 1 `a` ("), "{error}");
     let one = obj(&[("a", prism(6, 1.0, at(0.0), false))]);
     let found = open(&one, "").unwrap();
-    assert!(found.parts.is_empty() && !found.notes.join("; ").contains("bodies"), "{:?}", found.notes);
+    assert!(found.bodies.is_empty() && !found.notes.join("; ").contains("bodies"), "{:?}", found.notes);
     assert_eq!(open(&one, "1").unwrap().design, found.design);
 }
 
@@ -111,7 +117,7 @@ fn a_shell_inside_another_is_a_cavity_where_it_faces_inward_and_else_a_solid_of_
         assert!((volume(open(&nested, "all").unwrap()) - solid * 7.0 / 8.0).abs() < 1e-9);
         let hollow = open(&obj(&[("a", outer(false)), ("b", inner(true))]), "").unwrap();
         assert!(hollow.notes.iter().any(|note| note == "it is hollow: a shell inside it faces inward"));
-        assert!(hollow.parts.is_empty() && (volume(hollow) - solid * 7.0 / 8.0).abs() < 1e-9);
+        assert!(hollow.bodies.is_empty() && (volume(hollow) - solid * 7.0 / 8.0).abs() < 1e-9);
     }
 }
 
@@ -124,6 +130,12 @@ fn open_pieces_beside_a_closed_solid_are_left_out_and_named() {
         let objects: Vec<_> = backdrops.into_iter().chain([("gem", gem())]).collect();
         let found = open(&obj(&objects), "").unwrap();
         assert_eq!(found.design.cut, alone.design.cut);
+        // An open piece is listed, and cannot be chosen.
+        assert_eq!((found.bodies.len(), found.choices().len()), (1 + count, 0));
+        let ground = &found.bodies[1];
+        assert!(
+            ground.number.is_none() && !ground.is_read && ground.triangles == 2 && ground.extent.z == 0.0
+        );
         let warnings = found.warnings.join("; ");
         let expected = [
             "`ground` (2 triangles) is no closed surface",
