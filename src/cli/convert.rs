@@ -3,9 +3,9 @@
 use super::comments;
 use super::console::say;
 use super::meets::KnownMeets;
-use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
-use crate::cut::{Cut, Design, Size};
+use super::specimen_options::SpecimenOptions;
+use crate::cut::{Cut, Design};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
 use clap::Args;
@@ -25,14 +25,11 @@ pub struct Convert {
     /// move each tier to the distance that follows. A cut by proportions is turned into tiers first, named P1, G1, C1, T
     #[arg(long)]
     meets: bool,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    stone: Option<Size>,
     /// Write over the file that is read even if its comments are lost
     #[arg(long)]
     drop_comments: bool,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl Convert {
@@ -49,8 +46,7 @@ impl Convert {
         if !self.drop_comments {
             comments::keep(&self.input, &self.output, "give another name, or --drop-comments")?;
         }
-        let mut specimen =
-            LoadedSpecimen::load(&self.input, &self.mesh.sized(self.stone))?.made_of(None, self.stone)?;
+        let mut specimen = self.specimen.load(&self.input)?;
         if self.meets {
             specimen = followed(specimen)?;
         }

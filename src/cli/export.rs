@@ -1,10 +1,10 @@
 //! `export`: writes pictures, drawings and figures of stones to files.
 
 use super::batch::each_file;
-use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::WorkProgress;
 use super::specimen::stem;
+use super::specimen_options::SpecimenOptions;
 use crate::io::export::{self, OutputFormat, Outputs, first_twice};
 use crate::io::{Failure, MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
@@ -51,7 +51,7 @@ pub struct ExportArguments {
     #[command(flatten)]
     light: LightOptions,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl ExportArguments {
@@ -64,7 +64,7 @@ impl ExportArguments {
         self.distinct(&all)?;
         all.iter().try_for_each(Outputs::check)?;
         each_file(&self.files, false, |file| {
-            let specimen = self.light.specimen(file, &self.mesh.sized(self.light.stone))?;
+            let specimen = self.specimen.load(file)?;
             let mut renderer = Renderer::new(Card::Machine);
             let mut viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             viewing.glare = if self.glare { Some(Glare::Included) } else { viewing.glare };

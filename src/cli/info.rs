@@ -4,11 +4,11 @@ use super::audit_list::{audit_json, audit_list};
 use super::batch::each_file;
 use super::console::{json, print, say};
 use super::meets::KnownMeets;
-use super::mesh_options::MeshArguments;
-use super::specimen::{LoadedSpecimen, load_assembly, weight};
+use super::specimen::{LoadedSpecimen, weight};
+use super::specimen_options::SpecimenOptions;
 use crate::cut::from_mesh::FacetError;
 use crate::cut::{
-    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Size, Spread, Unit, tier_stem,
+    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
 };
 use crate::io::Failure;
 use crate::io::STANDARD;
@@ -38,12 +38,6 @@ pub struct Info {
     /// Print JSON: one object with everything, or for several files one object a line
     #[arg(long)]
     json: bool,
-    /// A material's name, or an index, instead of the file's; of a scene, for every stone
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's; of a scene, for every stone
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    stone: Option<Size>,
     /// List every facet as well
     #[arg(long)]
     facets: bool,
@@ -56,15 +50,14 @@ pub struct Info {
     #[arg(long)]
     audit: bool,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
-        let (mesh, material) = (&self.mesh.sized(self.stone), self.material.as_deref());
         each_file(&self.files, self.json, |file| {
             if is_scene(file) {
-                let assembly = load_assembly(file, material, self.stone, mesh)?;
+                let assembly = self.specimen.load_assembly(file)?;
                 for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
                     if is_asked {
                         let file = file.display();
@@ -75,7 +68,7 @@ impl Info {
                 }
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
-            let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, self.stone)?;
+            let specimen = self.specimen.load(file)?;
             let mut value = described(&specimen)?;
             let meets = self.meets.then(|| KnownMeets::of(&specimen)).flatten();
             if self.meets && meets.is_none() {

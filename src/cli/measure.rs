@@ -4,10 +4,10 @@ use super::batch::each_file;
 use super::console::{json, print, say};
 use super::estimate_list::{estimate_json, estimated, table_of_estimate};
 use super::hearts_list::{table_of_hearts, table_of_spread};
-use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, pupil_diameter, rock_angle, scoped};
 use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
+use super::specimen_options::SpecimenOptions;
 use crate::io::Failure;
 use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
 use crate::math::{fixed, signed};
@@ -80,7 +80,7 @@ pub struct Measure {
     #[arg(long, hide = true)]
     glare: bool,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl Measure {
@@ -94,7 +94,7 @@ impl Measure {
         }
         let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
         each_file(&self.files, self.json, |file| {
-            let specimen = self.light.specimen(file, &self.mesh.sized(self.light.stone))?;
+            let specimen = self.specimen.load(file)?;
             if self.deviations {
                 return self.list_deviations(&specimen);
             }

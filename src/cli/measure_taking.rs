@@ -1,9 +1,8 @@
 //! Takes the measures of a design, for the commands that vary it.
 
-use super::mesh_options::MeshArguments;
 use super::options::{ViewOptions, number};
-use super::specimen::{LoadedSpecimen, note_no_fire};
-use crate::cut::Size;
+use super::specimen::note_no_fire;
+use super::specimen_options::SpecimenOptions;
 use crate::io::Failure;
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
 use crate::optics::line;
@@ -16,12 +15,6 @@ pub const UNRESOLVED: f64 = 2e-3;
 
 #[derive(Debug, Args)]
 pub struct MeasureTaking {
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    stone: Option<Size>,
     /// The half angle of the head that hides light in obstruction, extinction and contrast
     #[arg(long, value_name = "DEGREES", default_value_t = MEASURES_HEAD_DEG, value_parser = number)]
     head: f64,
@@ -34,7 +27,7 @@ pub struct MeasureTaking {
     #[command(flatten)]
     view: ViewOptions,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl MeasureTaking {
@@ -57,8 +50,7 @@ impl MeasureTaking {
         axes: Vec<SweepAxis>,
         measures: &[MeasureName],
     ) -> Result<Sweep, Failure> {
-        let specimen = LoadedSpecimen::load(file, &self.mesh.sized(self.stone))?;
-        let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
+        let specimen = self.specimen.load(file)?;
         let is_varied = axes.iter().any(|axis| axis.key == SweepKey::Material);
         note_no_fire(&specimen.material, measures.iter().copied().filter(|_| !is_varied), "by --material");
         Ok(Sweep {

@@ -41,6 +41,7 @@ mod rough_yield;
 mod sheet;
 mod shell;
 mod specimen;
+mod specimen_options;
 mod spin;
 mod spin_motion;
 mod spin_panel;

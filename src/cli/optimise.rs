@@ -6,8 +6,9 @@ use super::optimise_text::{json_value, text};
 use super::options::number;
 use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
-use super::specimen::{LoadedSpecimen, lacks_fire, no_fire, note_no_fire};
-use crate::cut::{Design, Size};
+use super::specimen::{lacks_fire, no_fire, note_no_fire};
+use super::specimen_options::SpecimenOptions;
+use crate::cut::Design;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
 use crate::io::{Failure, check_writable, goal_file};
@@ -43,12 +44,8 @@ pub struct OptimiseArguments {
     /// Let angles end on multiples of this, as a machine's scale has them, such as 0.1 [default: any angle]
     #[arg(long, value_name = "DEGREES", value_parser = number)]
     angle_step: Option<f64>,
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    stone: Option<Size>,
+    #[command(flatten)]
+    specimen: SpecimenOptions,
     /// The file to write the design to; its ending names the format
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -146,8 +143,7 @@ impl OptimiseArguments {
         let plot = self.plot.as_deref().map(PlotFile::new).transpose()?;
         self.out.iter().chain(&self.plot).try_for_each(|path| check_writable(path))?;
         self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
-        let specimen = LoadedSpecimen::load(&self.file, &crate::io::mesh_options::MeshOptions::default())?;
-        let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
+        let specimen = self.specimen.load(&self.file)?;
         let path = specimen.path.clone();
         let refused = |error: SearchError| match error {
             SearchError::Stopped => Failure::Stopped,

@@ -1,9 +1,7 @@
 //! Options that several commands share: the viewpoint, and the settings by which light is traced.
 
 use super::specimen::{LoadedSpecimen, note_colour};
-use crate::cut::Size;
 use crate::io::export::Viewing;
-use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, nearest, scope_file};
 use crate::measure::STANDARD_ERROR;
 use crate::optics::{Material, line};
@@ -133,12 +131,6 @@ impl ViewOptions {
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Light")]
 pub struct LightOptions {
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    pub material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    pub stone: Option<Size>,
     /// Leave glare, the light that the stone's outer surface reflects, out of figures, which otherwise list it beside the
     /// rest
     #[arg(long)]
@@ -191,11 +183,6 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
 }
 
 impl LightOptions {
-    /// Reads a stone, and applies the material and the size that the options give.
-    pub fn specimen(&self, file: &Path, mesh: &MeshOptions) -> Result<LoadedSpecimen, Failure> {
-        LoadedSpecimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
-    }
-
     /// Returns the view and tracing of a specimen: its viewpoint, medium, observer and tracer, without glare in
     /// pictures.
     pub fn viewing<'a>(

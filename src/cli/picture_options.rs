@@ -1,8 +1,8 @@
 //! Options of the commands that take pictures under light. All take [`PictureOptions`]: stones, light and picture. `render`
 //! and `spin` also take [`FinishOptions`]: tracing and finish.
 
-use super::mesh_options::MeshArguments;
 use super::options::{OptionError, number};
+use super::specimen_options::SpecimenOptions;
 use crate::picture::{Bloom, Overlay, Smoothing, Tone};
 use crate::render::{USUAL_BOUNCES, Wanted};
 use crate::scene::Movement;
@@ -27,12 +27,6 @@ pub struct PictureOptions {
     /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's; in a scope none, for measures the usual one]
     #[arg(long, value_name = "DEGREES", value_parser = number)]
     pub head: Option<f64>,
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    pub material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    pub stone: Option<crate::cut::Size>,
     /// Pixels: a number for a square, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "1024", value_parser = film_size)]
     pub size: [u32; 2],
@@ -72,7 +66,7 @@ pub struct PictureOptions {
     #[arg(long, value_enum, value_name = "HOW", requires = "moment")]
     pub movement: Option<Movement>,
     #[command(flatten)]
-    pub mesh: MeshArguments,
+    pub specimen: SpecimenOptions,
 }
 
 /// Tracing and finish of a picture; refraction maps do not use these options.

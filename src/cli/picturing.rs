@@ -3,7 +3,7 @@
 use super::console::{report, say};
 use super::options::unfit;
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::specimen::{load_assembly, note_colour};
+use super::specimen::note_colour;
 use crate::io::assembly::Assembly;
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
@@ -78,12 +78,7 @@ impl<'a> PictureSetup<'a> {
         file: &Path,
         viewpoint: Viewpoint,
     ) -> Result<Self, Failure> {
-        let mut assembly = load_assembly(
-            file,
-            options.material.as_deref(),
-            options.stone,
-            &options.mesh.sized(options.stone),
-        )?;
+        let mut assembly = options.specimen.load_assembly(file)?;
         if let Some(seconds) = options.moment {
             let seconds = within("moment", seconds, 0.0, 1e5)?;
             let refused = |error: Failure| match error {

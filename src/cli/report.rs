@@ -2,10 +2,9 @@
 
 use super::batch::{ends_all, of_several, report_failure};
 use super::console::{say, written};
-use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, SideName, ViewOptions};
 use super::progress::WorkProgress;
-use crate::cut::Size;
+use super::specimen_options::SpecimenOptions;
 use crate::io::report::{PICTURE_SIDE, ReportFormat, ReportOrigin, check_count, report, write};
 use crate::io::{Failure, check_writable, is_standard, note_of_letters};
 use crate::picture::PaperSize;
@@ -30,14 +29,8 @@ pub struct ReportArguments {
     /// Pixels along each side of a picture, 16 to 2000
     #[arg(long, value_name = "N", default_value_t = PICTURE_SIDE, value_parser = clap::value_parser!(u32).range(16..=2000))]
     pixels: u32,
-    /// A material's name, or an index, instead of the files'
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
-    /// The stones' size, such as 6.5mm or 1.2ct, instead of the files'
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    stone: Option<Size>,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl ReportArguments {
@@ -56,7 +49,7 @@ impl ReportArguments {
         let mut renderer = Renderer::new(Card::None);
         let (mut specimens, mut failed) = (vec![], vec![]);
         for file in &self.files {
-            let loaded = light.specimen(file, &self.mesh.sized(light.stone)).and_then(|specimen| {
+            let loaded = self.specimen.load(file).and_then(|specimen| {
                 light.viewing(&specimen, &FACE_UP, &renderer)?;
                 Ok(specimen)
             });
@@ -98,8 +91,6 @@ impl ReportArguments {
     /// Returns the options of the light, which are the same for every report, so that reports can be compared.
     fn light(&self) -> LightOptions {
         LightOptions {
-            material: self.material.clone(),
-            stone: self.stone,
             no_glare: false,
             index: None,
             wavelength: None,
@@ -116,14 +107,10 @@ impl ReportArguments {
     fn command(&self, files: &[&PathBuf]) -> String {
         let mut words = vec!["brillianteer".to_owned(), "report".to_owned()];
         words.extend(files.iter().map(|file| file.display().to_string()));
-        words.extend(self.material.iter().flat_map(|material| ["--material".to_owned(), material.clone()]));
-        words.extend(
-            self.stone.iter().flat_map(|size| ["--stone".to_owned(), size.to_string().replace(' ', "")]),
-        );
+        words.extend(self.specimen.words());
         if self.pixels != PICTURE_SIDE {
             words.extend(["--pixels".to_owned(), self.pixels.to_string()]);
         }
-        words.extend(self.mesh.words());
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }
 }
@@ -165,7 +152,7 @@ mod tests {
             "a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --pixels 99 --up -y --as faceted --unit in",
         );
         let again =
-            "brillianteer report a.toml b.stl --stone 1.5ct --pixels 99 --up 0,-1,0 --as faceted --unit in";
+            "brillianteer report a.toml b.stl --stone 1.5ct --up 0,-1,0 --as faceted --unit in --pixels 99";
         assert_eq!(said, again);
         assert_eq!(
             command(&again["brillianteer report ".len()..].replace("b.stl", "b.stl -o y.html")),

@@ -2,9 +2,9 @@
 
 use super::comments;
 use super::console::{json, print, say};
-use super::mesh_options::MeshArguments;
 use super::options::{checked_wavelength, extrapolation, number};
-use super::specimen::{LoadedSpecimen, asked_material, note_colour};
+use super::specimen::{asked_material, note_colour};
+use super::specimen_options::SizeOptions;
 use crate::cut::{Design, RetargetError, RetargetRule, Retargeted, ScaleError, retarget};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
@@ -50,7 +50,7 @@ pub struct RetargetArguments {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    mesh: MeshArguments,
+    sized: SizeOptions,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -101,7 +101,7 @@ impl RetargetArguments {
         });
         let format = format.transpose()?;
         self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
-        let specimen = LoadedSpecimen::load(&self.file, &self.mesh.options())?;
+        let specimen = self.sized.load(&self.file)?;
         let path = specimen.path.clone();
         let (material, _) = asked_material(&self.material)?;
         let found = retarget(&specimen.design, material, rule).map_err(|error| match error {

@@ -1,10 +1,10 @@
-//! `yield`: prints the size, weight and yield of the stone that a piece of rough gives, or that has a weight.
+//! `yield`: prints the size, weight and yield of the stone that a piece of rough gives, or that has a weight or a size.
 
 use super::console::{json, print};
-use super::mesh_options::MeshArguments;
 use super::options::number;
 use super::specimen::{LoadedSpecimen, weight};
-use crate::cut::{Finished, FitLimit, Rough, RoughError};
+use super::specimen_options::SpecimenOptions;
+use crate::cut::{Finished, FitLimit, Rough, RoughError, Size};
 use crate::io::Failure;
 use clap::{ArgGroup, Args};
 use serde_json::{Value, json};
@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("wanted").required(true).args(["rough", "weight"]))]
+#[command(group = ArgGroup::new("wanted").required(true).args(["rough", "weight", "size"]))]
 pub struct RoughYield {
     /// A design, or the name of a cut that comes with the program
     file: PathBuf,
@@ -28,14 +28,11 @@ pub struct RoughYield {
     /// The weight of the rough in carats, of which the yield is a part as well
     #[arg(long, value_name = "CARATS", value_parser = number)]
     rough_weight: Option<f64>,
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
     /// Print JSON
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl RoughYield {
@@ -43,13 +40,15 @@ impl RoughYield {
         if let Some(carats) = self.rough_weight.filter(|carats| !(*carats > 0.0 && carats.is_finite())) {
             return Err(Failure::Usage(format!("--rough-weight {carats}: give more than 0 carats")));
         }
-        let specimen = LoadedSpecimen::load(&self.file, &self.mesh.options())?
-            .made_of(self.material.as_deref(), None)?;
+        let specimen = self.specimen.load_shape(&self.file)?;
         let (path, body) = (&specimen.path, specimen.solid());
-        let found = match (&self.rough, self.weight) {
-            (Some(rough), _) => Finished::from_rough(body, rough, self.girdle_mm),
-            (None, carats) => {
-                Finished::of_weight(body, carats.unwrap_or_default(), &specimen.material, self.girdle_mm)
+        let wanted = self.weight.map(Size::Carats).or(self.specimen.sized.size);
+        let found = match (&self.rough, wanted) {
+            (None, Some(size)) => Finished::of_size(body, size, &specimen.material, self.girdle_mm),
+            (rough, _) => {
+                let rough =
+                    rough.ok_or_else(|| Failure::Usage("give --rough, --weight or --stone".into()))?;
+                Finished::from_rough(body, &rough, self.girdle_mm)
             }
         };
         let found = found.map_err(|error| match error {
@@ -105,6 +104,7 @@ impl RoughYield {
                 FitLimit::Footprint => "the rough's length and width",
                 FitLimit::Depth => "the rough's depth",
                 FitLimit::Weight => "the weight",
+                FitLimit::Diameter => "the diameter",
             };
             line("limited by", limit.to_owned());
             line("turned in the rough", format!("{:.2} deg", found.turn_deg));

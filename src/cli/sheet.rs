@@ -2,9 +2,8 @@
 
 use super::batch::{distinct, each_file};
 use super::console::{json, print, say, written};
-use super::mesh_options::MeshArguments;
-use super::specimen::{LoadedSpecimen, stem};
-use crate::cut::Size;
+use super::specimen::stem;
+use super::specimen_options::SpecimenOptions;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
 use crate::io::{Failure, is_standard, note_of_letters};
 use crate::picture::PaperSize;
@@ -32,22 +31,15 @@ pub struct SheetArguments {
     /// Print the content of the sheet as JSON instead: one object, or for several files one object a line
     #[arg(long)]
     json: bool,
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
-    stone: Option<Size>,
     #[command(flatten)]
-    mesh: MeshArguments,
+    specimen: SpecimenOptions,
 }
 
 impl SheetArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let format = if self.json { None } else { Some(self.format()?) };
         each_file(&self.files, self.json, |file| {
-            let specimen = LoadedSpecimen::load(file, &self.mesh.sized(self.stone))?
-                .made_of(self.material.as_deref(), self.stone)?;
+            let specimen = self.specimen.load(file)?;
             let sheet = cutting_sheet(&specimen, self.left_handed)?;
             let Some((format, is_folder)) = format else {
                 let mut value = json!({ "file": specimen.path });

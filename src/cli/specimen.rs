@@ -3,7 +3,6 @@
 use super::console::say;
 use crate::cut::from_mesh::FacetError;
 use crate::cut::{MaterialError, MaterialRef, Size};
-use crate::io::assembly::Assembly;
 use crate::io::built_design::{BuiltDesign, OtherReadings};
 use crate::io::mesh::MeshBody;
 use crate::io::mesh_options::MeshOptions;
@@ -85,23 +84,8 @@ impl LoadedSpecimen {
     }
 }
 
-/// Loads the stones and the metal of a file or a name, with the value of `--material` and a size for every stone, and prints
-/// notes and warnings about them.
-pub fn load_assembly(
-    file: &Path,
-    material: Option<&str>,
-    size: Option<Size>,
-    mesh: &MeshOptions,
-) -> Result<Assembly, Failure> {
-    let material = material.map(|text| asked_material(text).map(|(named, _)| named)).transpose()?;
-    let assembly = Assembly::load(file, material.as_ref(), size, mesh)?;
-    assembly.remarks.iter().for_each(|remark| say(remark));
-    assembly.other_readings.iter().for_each(note_readings);
-    Ok(assembly)
-}
-
 /// Prints which options read a file in another way.
-fn note_readings(other: &OtherReadings) {
+pub fn note_readings(other: &OtherReadings) {
     let path = &other.path;
     if other.of_bodies {
         say(&format!("note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"));

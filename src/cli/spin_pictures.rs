@@ -65,7 +65,7 @@ impl<'a> LitPictures<'a> {
     ) -> Result<Self, Failure> {
         let setup = PictureSetup::load(options, file, viewpoint)?.with_what_has_a_distance()?;
         let stones = Arc::new(setup.assembly.scene.clone());
-        Ok(Self { setup, material: options.0.material.as_deref(), stones, pixel: 0.0 })
+        Ok(Self { setup, material: options.0.specimen.material.as_deref(), stones, pixel: 0.0 })
     }
 
     /// Returns the viewpoint in which the stones rest: in the scene's perspective where the options give none.
@@ -143,8 +143,7 @@ impl<'a> ScopeSetup<'a> {
     ) -> Result<Self, Failure> {
         let scoped = scoped(scope)?;
         options.head.map(checked_head).transpose()?;
-        let specimen = LoadedSpecimen::load(file, &options.mesh.sized(options.stone))?
-            .made_of(options.material.as_deref(), options.stone)?;
+        let specimen = options.specimen.load(file)?;
         note_colour(&specimen.material);
         let material = &specimen.material;
         let index = material.dispersion.try_index(line::SODIUM_D);

@@ -58,9 +58,9 @@ impl Size {
     /// radius is 1.
     ///
     /// # Errors
-    /// Fails where the diameter is out of range, or where a weight is given and the material has no density.
+    /// Fails where the diameter is out of range, and for a weight that is not above 0, or of a material without a density.
     pub fn diameter_mm(self, unit: f64, material: &Material) -> Result<f64, SizeError> {
-        let Self::Carats(carats) = self else { return self.checked().map(|_| self.number()) };
+        let Self::Carats(carats) = self.checked()? else { return Ok(self.number()) };
         let no_density = || SizeError::NoDensity { material: material.name.clone() };
         let volume_mm3 = material.volume_mm3(carats).ok_or_else(no_density)?;
         let diameter = 2.0 * (volume_mm3 / unit).cbrt();

@@ -26,10 +26,13 @@ pub struct MeshOptions {
 impl MeshOptions {
     /// Returns the same options for a stone whose size is given elsewhere, if it is: the file's unit then matters no more.
     pub fn sized(self, size: Option<Size>) -> Self {
-        match (size, self.unit) {
-            (Some(_), MeshUnit::Found) => Self { unit: MeshUnit::Unneeded, ..self },
-            _ => self,
-        }
+        if size.is_some() { self.of_any_size() } else { self }
+    }
+
+    /// Returns the same options for a stone of which only the shape matters; a unit that is given stays.
+    pub fn of_any_size(self) -> Self {
+        let unit = if self.unit == MeshUnit::Found { MeshUnit::Unneeded } else { self.unit };
+        Self { unit, ..self }
     }
 
     /// Returns whether any option is given that only meshes have.

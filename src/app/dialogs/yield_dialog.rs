@@ -113,6 +113,7 @@ fn results(model: &Model, options: &YieldOptions, found: &Finished, ui: &mut Ui)
                 FitLimit::Footprint => "the rough's length and width",
                 FitLimit::Depth => "the rough's depth",
                 FitLimit::Weight => "the weight",
+                FitLimit::Diameter => "the diameter",
             };
             line("Limited by", limit.to_owned());
             line("Turned in the rough", format!("{:.2}°", found.turn_deg));

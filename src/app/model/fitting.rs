@@ -1,7 +1,7 @@
 //! The forms of two dialogs: one fits the design to another material, one to a piece of rough or a weight.
 
 use crate::cut::{
-    Design, Finished, MaterialRef, RetargetError, RetargetRule, Retargeted, Rough, RoughError, retarget,
+    Design, Finished, MaterialRef, RetargetError, RetargetRule, Retargeted, Rough, RoughError, Size, retarget,
 };
 use crate::io::Failure;
 use crate::scene::{Specimen, Stone};
@@ -219,6 +219,8 @@ fn finished(options: &YieldOptions, specimen: &Specimen, stone: &Stone) -> Resul
     let YieldOptions { by, sides_mm, carats, girdle_mm, .. } = *options;
     match by {
         SizeBy::Rough => Finished::from_rough(&stone.polytope, &Rough::new(sides_mm)?, girdle_mm),
-        SizeBy::Weight => Finished::of_weight(&stone.polytope, carats, &specimen.material, girdle_mm),
+        SizeBy::Weight => {
+            Finished::of_size(&stone.polytope, Size::Carats(carats), &specimen.material, girdle_mm)
+        }
     }
 }

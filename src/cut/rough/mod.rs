@@ -108,6 +108,8 @@ pub enum FitLimit {
     Depth,
     /// The requested weight.
     Weight,
+    /// The requested diameter.
+    Diameter,
 }
 
 /// A finished stone.
@@ -177,23 +179,27 @@ impl Finished {
         Ok(finished)
     }
 
-    /// Returns the stone of this shape that has a weight, carats. `girdle_mm` is as for [`from_rough`](Self::from_rough).
+    /// Returns the stone of this shape that has a weight or a diameter. `girdle_mm` is as for [`from_rough`](Self::from_rough).
     ///
     /// # Errors
-    /// Fails for a weight that is not above 0, a material without a density, a stone out of the range of sizes, a
+    /// Fails for a size that is none, a weight of a material without a density, a stone out of the range of sizes, a
     /// girdle that does not fit, and a body that is no cut stone.
-    pub fn of_weight<'a>(
+    pub fn of_size<'a>(
         body: impl Into<SolidRef<'a>>,
-        carats: f64,
+        size: Size,
         material: &Material,
         girdle_mm: Option<f64>,
     ) -> Result<Self, RoughError> {
         let shape = Shape::of(body.into())?;
-        if !(carats > 0.0 && carats.is_finite()) {
-            return Err(SizeError::Weight { carats }.into());
-        }
         let in_radii = shape.volume * (2.0 / shape.diameter).powi(3);
-        let scale = Size::Carats(carats).diameter_mm(in_radii, material)? / shape.diameter;
+        let scale = size.diameter_mm(in_radii, material)? / shape.diameter;
+        let Size::Carats(carats) = size else {
+            if let Some(mm) = girdle_mm.filter(|mm| !(*mm >= 0.0 && mm.is_finite())) {
+                return Err(RoughError::Girdle { mm, most: *DIAMETERS_MM.end() });
+            }
+            let found = shape.finished(scale, 0.0, girdle_mm)?;
+            return Ok(Self { limit: FitLimit::Diameter, ..found });
+        };
         let Some(mm) = girdle_mm else { return shape.finished(scale, 0.0, None) };
         shape.girdle()?;
         let refused = Err(RoughError::GirdleOfWeight { mm, carats });

@@ -73,13 +73,34 @@ fn the_depth_that_is_left_is_what_the_girdle_can_take() {
 fn a_weight_gives_the_stone_that_weighs_it_with_any_girdle() {
     let (stone, diamond) = (brilliant(), material("diamond").unwrap());
     for girdle in [None, Some(0.1), Some(0.6)] {
-        let found = Finished::of_weight(&stone, 1.5, diamond, girdle).unwrap();
+        let found = Finished::of_size(&stone, Size::Carats(1.5), diamond, girdle).unwrap();
         assert!((diamond.carats(found.volume_mm3).unwrap() - 1.5).abs() < 1e-5, "{found:?}");
         assert!(girdle.is_none_or(|mm| (found.girdle_mm.unwrap() - mm).abs() < 1e-9));
     }
-    let plain = Finished::of_weight(&stone, 1.0, diamond, None).unwrap();
+    let plain = Finished::of_size(&stone, Size::Carats(1.0), diamond, None).unwrap();
     let size = Size::Carats(1.0).diameter_mm(stone.volume(), diamond).unwrap();
-    assert!((plain.diameter_mm - size).abs() < 1e-9);
+    assert!((plain.diameter_mm - size).abs() < 1e-9 && plain.limit == FitLimit::Weight);
+}
+
+#[test]
+fn a_diameter_gives_the_stone_that_has_it_with_any_girdle() {
+    let (stone, diamond) = (brilliant(), material("diamond").unwrap());
+    let of = |girdle| Finished::of_size(&stone, Size::Millimetres(6.5), diamond, girdle);
+    for girdle in [None, Some(0.0), Some(0.4)] {
+        let found = of(girdle).unwrap();
+        assert!((found.diameter_mm - 6.5).abs() < 1e-9 && found.limit == FitLimit::Diameter, "{found:?}");
+        assert!(girdle.is_none_or(|mm| (found.girdle_mm.unwrap() - mm).abs() < 1e-9));
+        // The stone of this weight is the same one.
+        let carats = diamond.carats(found.volume_mm3).unwrap();
+        let by_weight = Finished::of_size(&stone, Size::Carats(carats), diamond, girdle).unwrap();
+        assert!((by_weight.diameter_mm - 6.5).abs() < 1e-5, "{by_weight:?}");
+    }
+    for mm in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(matches!(of(Some(mm)), Err(RoughError::Girdle { .. })), "{mm}");
+    }
+    let mesh = Arc::new(TriangleMesh::of_polytope(&stone));
+    let refused = Finished::of_size(&mesh, Size::Millimetres(6.5), diamond, Some(0.1));
+    assert_eq!(refused, Err(RoughError::GirdleOfMesh));
 }
 
 #[test]
@@ -122,7 +143,8 @@ fn what_is_no_rough_or_does_not_fit_says_so() {
         let error = Finished::from_rough(&stone, &fits("9x9x3"), Some(mm)).unwrap_err();
         assert!(matches!(error, RoughError::Girdle { .. }), "{error}");
     }
-    let of_weight = |carats, mm| Finished::of_weight(&stone, carats, material("diamond").unwrap(), Some(mm));
+    let of_weight =
+        |carats, mm| Finished::of_size(&stone, Size::Carats(carats), material("diamond").unwrap(), Some(mm));
     assert!(matches!(of_weight(1.0, f64::INFINITY), Err(RoughError::GirdleOfWeight { .. })));
     assert!(matches!(of_weight(-1.0, 0.1), Err(RoughError::Size(SizeError::Weight { .. }))));
 }

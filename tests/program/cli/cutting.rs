@@ -180,6 +180,12 @@ fn rough_gives_size_weight_and_yield() {
     let weight = desk.json("yield tolkowsky --weight 1.5 --girdle-mm 0.2 --json");
     near(at(&weight, "carats"), 1.5, 1e-5, "weight");
     near(at(&weight, "finished/girdle_mm"), 0.2, 1e-9, "girdle");
+    let size = desk.json("yield tolkowsky --stone 6.5mm --rough-weight 6 --json");
+    near(at(&size, "finished/diameter_mm"), 6.5, 1e-9, "size");
+    let carats = at(&desk.json("info tolkowsky --stone 6.5mm --json"), "carats");
+    near(at(&size, "carats"), carats, 1e-9, "weight of a size");
+    near(at(&size, "yield_of_weight_percent"), 100.0 * carats / 6.0, 1e-9, "yield of a size");
+    assert!(desk.refused("yield tolkowsky --stone 6.5mm --weight 1", 2).contains("cannot be used with"));
     assert!(desk.done("yield tolkowsky --rough 9x9x3").contains("the rough's depth"));
     assert!(desk.refused("yield tolkowsky --rough 9x9", 2).contains("as in 12x9x7"));
     assert!(desk.refused("yield tolkowsky --weight -1", 2).contains("is not a weight"));
