@@ -6,7 +6,7 @@
 
 use super::cutters::{self, Gear, WarningList};
 use super::design_file::ImportedDesign;
-use super::encoding;
+use super::encoding::{self, is_padding};
 use super::file_error::Fault;
 use super::numbers::{NumberReader, Token};
 use super::text::check_size;
@@ -73,11 +73,6 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let text = encoding::decoded(bytes, None).text;
     if text.contains(is_padding) { Cow::Owned(text.replace(is_padding, "")) } else { text }
-}
-
-/// Returns whether a character only fills up a file or a block of it.
-fn is_padding(c: char) -> bool {
-    matches!(c, '\0' | '\u{1a}' | '\u{feff}')
 }
 
 /// Splits text into lines that end in LF, CRLF or, as on old Macs, CR.

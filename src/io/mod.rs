@@ -17,7 +17,6 @@ pub mod cutting_sheet;
 #[cfg(feature = "interchange")]
 pub mod design_file;
 mod drawing_png;
-#[cfg(feature = "interchange")]
 mod encoding;
 #[cfg(feature = "exr")]
 pub mod export;

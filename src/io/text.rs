@@ -1,7 +1,9 @@
 //! Reads text that people wrote: of a sane size, in UTF-8, or with an error that says what is wrong.
 
+use super::encoding::{in_utf8, with_line_feeds};
 use super::file_error::Fault;
 use super::standard::{self, is_standard};
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -52,16 +54,23 @@ pub(super) fn check_size(bytes: usize, limit: u64) -> Result<(), Fault> {
     Err(format!("this is larger than {} MiB, too large for a file of this kind", limit >> 20).into())
 }
 
-/// Converts bytes to text; the error names a picture's format or the line that is no UTF-8.
+/// Converts bytes in UTF-8, UTF-16 or UTF-32 to text whose lines end in line feeds; the error names a picture's format or the
+/// line that is no UTF-8.
 pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, Fault> {
-    String::from_utf8(bytes).map_err(|error| {
+    let decoded = match in_utf8(&bytes) {
+        Cow::Borrowed(text) if text.len() == bytes.len() => None,
+        text => Some(text.into_owned()),
+    };
+    let text = decoded.unwrap_or(bytes);
+    let tidied = match with_line_feeds(&text) {
+        Cow::Borrowed(_) => None,
+        Cow::Owned(tidied) => Some(tidied),
+    };
+    String::from_utf8(tidied.unwrap_or(text)).map_err(|error| {
         let kinds: [(&[u8], &str); 4] =
             [(b"\x89PNG", "PNG"), (b"\xff\xd8\xff", "JPEG"), (b"GIF8", "GIF"), (b"%PDF", "PDF")];
         if let Some((_, kind)) = kinds.iter().find(|(start, _)| error.as_bytes().starts_with(start)) {
             return format!("this is a {kind}, where text is expected").into();
-        }
-        if error.as_bytes().starts_with(b"\xff\xfe") || error.as_bytes().starts_with(b"\xfe\xff") {
-            return "this is UTF-16 text; save the file as UTF-8".into();
         }
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         Fault::line(line_after(valid), "this is not UTF-8 text; save the file as UTF-8")
@@ -87,6 +96,25 @@ pub(crate) fn nearest<'k>(asked: &str, known: &[&'k str]) -> Option<&'k str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn text_of_editors_is_read_in_every_encoding_and_with_every_end_of_lines() {
+        let text = "name = \"Brücke 字\"\nangle = 40.75\n";
+        let wide = |mark: &[u8], order: fn(u16) -> [u8; 2]| -> Vec<u8> {
+            mark.iter().copied().chain(text.encode_utf16().flat_map(order)).collect()
+        };
+        for bytes in [
+            text.as_bytes().to_vec(),
+            format!("\u{feff}{text}").into_bytes(),
+            wide(b"\xff\xfe", u16::to_le_bytes),
+            wide(b"\xfe\xff", u16::to_be_bytes),
+            wide(b"", u16::to_le_bytes),
+            text.replace('\n', "\r").into_bytes(),
+        ] {
+            assert_eq!(utf8(bytes.clone()), Ok(text.to_owned()), "{bytes:?}");
+        }
+        assert_eq!(utf8(b"a\nb \xfc".to_vec()).unwrap_err().line, Some(2));
+    }
 
     #[test]
     fn the_nearest_name_is_one_that_a_few_slips_make_of_what_was_asked() {

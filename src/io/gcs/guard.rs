@@ -1,7 +1,7 @@
 //! Refuses XML that its parser would accept and not finish, before it is parsed, and restores texts as they stand in a file.
 
 use super::MAX_BYTES;
-use crate::io::encoding::{self, Decoded};
+use crate::io::encoding::{self, Decoded, is_padding};
 use crate::io::file_error::Fault;
 use crate::io::text::{check_size, line_after};
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
@@ -21,6 +21,7 @@ const DECLARED_WITHIN: usize = 256;
 pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<String>), Fault> {
     check_size(bytes.len(), MAX_BYTES as u64)?;
     let (text, warning) = decoded(bytes);
+    let text = tidied(text);
     if text.matches("xmlns").count() > MOST_NAMESPACES {
         return Err(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared").into());
     }
@@ -37,21 +38,33 @@ pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<String>), Fault
     Ok((text, warning))
 }
 
+/// Returns text without the padding behind it. XML wants its declaration at the very start; where blank lines are above it,
+/// it is left out, as it says nothing more once the text is decoded.
+fn tidied(text: Cow<'_, str>) -> Cow<'_, str> {
+    let is_filling = |c: char| is_padding(c) || c.is_whitespace();
+    let whole = text.trim_end_matches(is_filling);
+    let start = whole.trim_start();
+    let above = &whole[..whole.len() - start.len()];
+    match start.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {
+        Some((_, rest)) if !above.is_empty() => Cow::Owned(format!("{above}{rest}")),
+        _ if whole.len() < text.len() => Cow::Owned(whole.to_owned()),
+        _ => text,
+    }
+}
+
 fn decoded(bytes: &[u8]) -> (Cow<'_, str>, Option<String>) {
     let label = declared(bytes);
     let encoding = label.as_deref().and_then(|label| Encoding::for_label(label.as_bytes()));
     let Decoded { text, encoding, is_damaged } = encoding::decoded(bytes, Some(encoding.unwrap_or(UTF_8)));
     let warning = match label {
-        _ if is_damaged && encoding == UTF_8 && !has_letters_beyond_ascii(&text) => {
+        _ if is_damaged && encoding == UTF_8.name() && !has_letters_beyond_ascii(&text) => {
             let text = WINDOWS_1252.decode_without_bom_handling(bytes).0;
             let warning = "characters that are not UTF-8 are read as Windows-1252; save the file as UTF-8";
             return (text, Some(warning.to_owned()));
         }
-        _ if is_damaged => {
-            Some(format!("characters that are not {} are read as '\u{fffd}'", encoding.name()))
-        }
+        _ if is_damaged => Some(format!("characters that are not {encoding} are read as '\u{fffd}'")),
         Some(label) if Encoding::for_label(label.as_bytes()).is_none() => {
-            Some(format!("encoding: '{label:.40}' is not known; the file is read as {}", encoding.name()))
+            Some(format!("encoding: '{label:.40}' is not known; the file is read as {encoding}"))
         }
         _ => None,
     };
@@ -118,5 +131,14 @@ mod tests {
         let lines = format!("<x a='{}'/>", "=".repeat(1000));
         assert!(text(lines.as_bytes()).is_ok());
         assert!(text("xmlns ".repeat(20).as_bytes()).is_err());
+    }
+
+    #[test]
+    fn blanks_above_and_padding_below_are_no_part_of_a_text() {
+        let plain = "<?xml version=\"1.0\"?>\n<x/>";
+        assert_eq!(text(plain.as_bytes()).unwrap().0, plain);
+        assert_eq!(text(format!("{plain}\r\n\u{1a}\0\0").as_bytes()).unwrap().0, plain);
+        // Lines keep their numbers.
+        assert_eq!(text(format!("\n \n{plain}").as_bytes()).unwrap().0, "\n \n\n<x/>");
     }
 }
