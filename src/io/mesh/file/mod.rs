@@ -20,7 +20,7 @@ mod stl_file;
 #[cfg(test)]
 mod tests;
 
-use crate::io::encoding::in_utf8;
+use crate::io::encoding::{decoded, in_utf8};
 use crate::io::file_error::{Fault, FileError};
 use crate::io::foreign;
 use crate::math::Surface;
@@ -31,9 +31,12 @@ pub use hint::MaterialHint;
 pub use limits::MAX_BYTES;
 use parsed_mesh::ParsedMesh;
 pub(super) use sniff::STL_HEADER;
-use sniff::STL_START;
+use sniff::by_name;
 pub use sniff::{MeshFormat, looks_like};
 pub use statement::{Stands, Statement};
+
+/// The message about a file that is none of the formats.
+const NO_MESH: &str = "this is not a mesh; glTF, OBJ, STL or PLY is expected";
 
 /// The content of a mesh file as it is written: not yet welded, in the file's unit and frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,22 +87,18 @@ fn parse_by(
     if bytes.is_empty() {
         return Err(FileError::new(label, "the file is empty"));
     }
-    // A binary STL that was cut off, or whose count is wrong, can be recognised by its name alone.
-    let is_named = Path::new(label).extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"));
-    let binary =
-        (is_named && bytes.len() >= STL_START && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
-    let Some(format) = looks_like(&bytes).or(binary) else {
-        let named = foreign::refusal(&bytes);
-        let message =
-            named.unwrap_or_else(|| "this is not a mesh; glTF, OBJ, STL or PLY is expected".to_owned());
-        return Err(FileError::new(label, message));
+    let named = || match foreign::refusal(&bytes) {
+        Some(message) => Err(message),
+        None => by_name(&bytes, Path::new(label)).ok_or_else(|| NO_MESH.to_owned()),
     };
+    let format =
+        looks_like(&bytes).map_or_else(named, Ok).map_err(|message| FileError::new(label, message))?;
     let read = match format {
         MeshFormat::Glb => gltf_file::read(&bytes, folder),
         MeshFormat::Gltf => gltf_file::read(&in_utf8(&bytes), folder),
-        MeshFormat::Obj => read_obj(&in_utf8(&bytes)),
+        MeshFormat::Obj => read_obj(decoded(&bytes, None).text.as_bytes()),
         MeshFormat::StlBinary => stl_file::read_binary(bytes),
-        MeshFormat::StlText => stl_file::read_text(&in_utf8(&bytes)),
+        MeshFormat::StlText => stl_file::read_text(decoded(&bytes, None).text.as_bytes()),
         MeshFormat::Ply => ply_file::read(&in_utf8(&bytes)),
     };
     let ParsedMesh { surface, normals, hint, notes, mut warnings, name, said } =

@@ -93,8 +93,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let end = header_end(bytes).ok_or("the header has no end; a line `end_header` is expected")?;
     let head = with_line_feeds(&bytes[..end]);
     let parser = Parser::<Row>::new();
-    let mut reader = Reader::new(Lines::new(&head, Rc::default(), tidy_header));
-    let header = parser.read_header(&mut reader).map_err(fault)?;
+    let line = Rc::new(Cell::new(0));
+    let mut reader = Reader::new(Lines::new(&head, line.clone(), tidy_header));
+    // Blank lines are left out, so that the crate counts fewer lines.
+    let in_line = |error| Fault { line: Some(line.get()), ..fault(&error) };
+    let header = parser.read_header(&mut reader).map_err(in_line)?;
     check(&header)?;
     let (rows, warning) = match header.encoding {
         Encoding::Ascii => text_rows(
@@ -103,7 +106,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
             &with_line_feeds(&bytes[end..]),
             head.split(|b| *b == b'\n').count() - 1,
         )?,
-        _ => (rows(&parser, &header, &mut Reader::new(&bytes[end..])).map_err(fault)?, None),
+        _ => (rows(&parser, &header, &mut Reader::new(&bytes[end..])).map_err(|error| fault(&error))?, None),
     };
     let mut polygons = Polygons::default();
     for (name, rows) in rows {
@@ -137,8 +140,11 @@ fn header_end(bytes: &[u8]) -> Option<usize> {
     Some((end + if bytes.get(end) == Some(&b'\r') && is_pair { 2 } else { 1 }).min(bytes.len()))
 }
 
-/// Brings a line of a header into the form that the crate takes. Lines stay lines, so that their numbers do.
+/// Brings a line of a header into the form that the crate takes. Blank lines are left out.
 fn tidy_header(line: &[u8], out: &mut Vec<u8>) {
+    if line.trim_ascii().is_empty() {
+        return;
+    }
     // Comments may be in any encoding.
     let line: String =
         line.iter().map(|byte| if byte.is_ascii() { char::from(*byte) } else { '?' }).collect();
@@ -190,7 +196,7 @@ fn text_rows<'h>(
     if let Some(fault) = broken {
         return Err(fault);
     }
-    let found = found.map_err(|error| Fault { line: Some(above + line.get()), ..fault(error) })?;
+    let found = found.map_err(|error| Fault { line: Some(above + line.get()), ..fault(&error) })?;
     Ok((found, numbers.warning()))
 }
 
@@ -291,11 +297,11 @@ fn part(what: &str, number: usize, problem: &str) -> Fault {
     Fault::part(format!("{what} {number}"), problem)
 }
 
-#[allow(clippy::needless_pass_by_value, reason = "it maps an error")]
-fn fault(error: ParseError) -> Fault {
-    let message = format!("this cannot be read: {error}");
-    match error.line() {
-        Some(line) => Fault::line(line, message),
-        None => Fault::whole(message),
-    }
+/// Makes the fault of an error of the crate, without the line that it counts and the insides of its parser.
+fn fault(error: &ParseError) -> Fault {
+    let text = error.to_string();
+    let text =
+        text.split_once(": ").filter(|(line, _)| line.starts_with("Line ")).map_or(&*text, |(_, text)| text);
+    let text = text.split(" Error: ParseError").next().unwrap_or_default();
+    Fault::whole(format!("this cannot be read: {text}"))
 }

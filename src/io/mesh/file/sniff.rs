@@ -1,7 +1,9 @@
 //! Recognises the mesh format of a file by its first bytes.
 
+use super::number::number;
 use crate::io::encoding::{in_utf8, with_line_feeds};
-use crate::io::numbers::Token;
+use crate::io::numbers::{NumberReader, Token};
+use std::path::Path;
 
 /// The mesh formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,7 +50,8 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     }
     let beginning = &bytes[..bytes.len().min(LOOKED_AT)];
     let text = with_line_feeds(&in_utf8(beginning)).into_owned();
-    if text.starts_with(b"ply") && text.get(3).is_none_or(u8::is_ascii_whitespace) {
+    let first = text.trim_ascii_start();
+    if first.starts_with(b"ply") && first.get(3).is_none_or(u8::is_ascii_whitespace) {
         return Some(MeshFormat::Ply);
     }
     let is_text = !text[..text.len().min(TEXT)].contains(&0);
@@ -72,6 +75,23 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     (is_binary && bytes.starts_with(b"solid")).then_some(MeshFormat::StlBinary)
 }
 
+/// Returns the format of bytes that do not look like one, by the ending of their file's name and a sign in them. Its reader
+/// says what is wrong: a binary STL that was cut off or whose count is wrong, an STL without its first line, a text whose
+/// corners are not numbers, and JSON that is broken.
+pub(super) fn by_name(bytes: &[u8], path: &Path) -> Option<MeshFormat> {
+    let ending = path.extension()?.to_string_lossy().to_ascii_lowercase();
+    let text = in_utf8(&bytes[..bytes.len().min(LOOKED_AT)]);
+    let text = String::from_utf8_lossy(&with_line_feeds(&text)).to_ascii_lowercase();
+    let begins_a_line = |word: &str| text.lines().any(|line| line.split_whitespace().next() == Some(word));
+    match ending.as_str() {
+        "stl" if begins_a_line("vertex") => Some(MeshFormat::StlText),
+        "stl" if bytes.len() >= STL_START && bytes.contains(&0) => Some(MeshFormat::StlBinary),
+        "obj" if begins_a_line("v") => Some(MeshFormat::Obj),
+        "gltf" if !text.trim().is_empty() => Some(MeshFormat::Gltf),
+        _ => None,
+    }
+}
+
 /// Returns the number of triangles that a binary STL states.
 pub(super) fn stl_triangles(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(STL_HEADER..STL_START)?;
@@ -85,7 +105,9 @@ fn is_obj(text: &str) -> bool {
     let word = |line: &'_ str| line.split_whitespace().next().unwrap_or_default().to_ascii_lowercase();
     let mut words = text.lines().map(word).filter(|w| !w.is_empty() && !w.starts_with('#')).peekable();
     let begins = words.peek().is_some_and(|first| FIRST.contains(&first.as_str()));
-    let numbers = |line: &str| line.split_whitespace().skip(1).take(3).all(|n| Token::of(n).is_numeric());
+    let is_number =
+        |text: &str| Token::of(text).is_numeric() || number(&mut NumberReader::default(), text, 0).is_ok();
+    let numbers = |line: &str| line.split_whitespace().skip(1).take(3).all(is_number);
     begins
         && text.lines().any(|line| word(line) == "v" && line.split_whitespace().count() >= 4 && numbers(line))
 }

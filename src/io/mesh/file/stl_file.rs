@@ -81,6 +81,19 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     Ok(ParsedMesh { surface: text.polygons.surface, warnings, name: text.name, ..ParsedMesh::default() })
 }
 
+/// Returns whether words begin a facet.
+fn begins_facet(mut words: SplitWhitespace<'_>) -> bool {
+    let mut is = |known: &[&str]| {
+        words.next().is_some_and(|word| known.iter().any(|known| word.eq_ignore_ascii_case(known)))
+    };
+    is(&["facet"]) && is(&["normal", "outer"])
+}
+
+/// Returns whether a word goes on behind the normal of a facet.
+fn is_after_normal(word: &str) -> bool {
+    ["outer", "outerloop", "loop", "vertex"].iter().any(|known| word.eq_ignore_ascii_case(known))
+}
+
 /// A reader of the lines of a text.
 #[derive(Default)]
 struct Text {
@@ -101,8 +114,13 @@ impl Text {
         while let Some(word) = words.next() {
             match word.to_ascii_lowercase().as_str() {
                 "solid" => {
-                    self.solid(line.trim().get(word.len()..).unwrap_or_default().trim());
-                    return Ok(());
+                    // The name may hold any word; the solid begins where a facet does.
+                    let mut name = vec![];
+                    while !begins_facet(words.clone()) {
+                        let Some(word) = words.next() else { break };
+                        name.push(word);
+                    }
+                    self.solid(&name.join(" "));
                 }
                 // The rest of such a line is a name or a colour.
                 "endsolid" | "color" | "colour" => return Ok(()),
@@ -110,8 +128,16 @@ impl Text {
                 "vertex" => self.vertex(&mut words)?,
                 // A loop ends with its own word, in two writings, or with its facet.
                 "facet" | "endfacet" | "endloop" | "end" => self.end_loop()?,
-                "outer" | "loop" | "normal" => {}
+                // The normal is not used, whatever is written there.
+                "normal" => {
+                    while words.clone().next().is_some_and(|next| !is_after_normal(next)) {
+                        words.next();
+                    }
+                }
+                "outer" | "loop" | "outerloop" => {}
                 _ if word.parse::<f64>().is_ok() || word.contains([',', '.']) => {}
+                // Padding behind the last line.
+                _ if word.chars().all(char::is_control) => {}
                 _ => {
                     let quoted = || (word.chars().take(QUOTED).collect(), self.line, 0);
                     self.strange.get_or_insert_with(quoted).2 += 1;

@@ -42,7 +42,7 @@ pub(super) fn gather(document: &Document, data: &Data) -> Result<(ParsedMesh, Op
             let read =
                 format!("{} scenes are in the file; scene {}{called} is read", scenes.len(), scene.index());
             mesh.notes.push(if place > 0 {
-                format!("{read}, as those before it have no triangles")
+                format!("{read}, as the scene that would be shown has no triangles")
             } else {
                 read
             });

@@ -13,16 +13,21 @@ const TOLERANT: GeneralPurposeConfig = GeneralPurposeConfig::new()
     .with_decode_padding_mode(DecodePaddingMode::Indifferent)
     .with_decode_allow_trailing_bits(true);
 
+/// The beginning of an address that holds its bytes itself.
+const DATA: &str = "data:";
+
 /// Returns the bytes that an address stands for; `folder` is that of the glTF file.
 pub(super) fn read(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
-    if let Some(rest) = uri.trim_start().strip_prefix("data:") {
+    let scheme = uri.trim_start().split_at_checked(DATA.len());
+    if let Some((_, rest)) = scheme.filter(|(scheme, _)| scheme.eq_ignore_ascii_case(DATA)) {
         return written_out(rest);
     }
     let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
     let Some(path) = folder.and_then(|folder| within(folder, &name)) else {
-        return Err(
-            format!("`{name}` is not a file beside this one or below; put it there, or embed it").into()
-        );
+        return Err(format!(
+            "`{name:.80}` is not a file beside this one or below; put it there, or embed it"
+        )
+        .into());
     };
     // Some programs write names as they are, though they hold a percent sign.
     let literal = folder.and_then(|folder| within(folder, uri)).filter(|path| path.exists());
@@ -75,6 +80,7 @@ mod tests {
             "data:application/gltf-buffer;base64,----_w",
             "data:;base64, ++++\n /w==",
             "data:application/octet-stream,%FB%EF%BE%FF",
+            "DATA:;BASE64,++++/w==",
         ] {
             assert_eq!(read(uri, None).unwrap(), bytes, "{uri}");
         }
