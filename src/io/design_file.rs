@@ -77,7 +77,7 @@ impl DesignFormat {
     /// Returns the format of a file with these bytes and this name.
     ///
     /// # Errors
-    /// Fails where the bytes are of a format that is known and not read.
+    /// Fails where the bytes are of a format that is not read.
     fn of(bytes: &[u8], path: &Path) -> Result<Self, Fault> {
         let known = [
             (Self::Gcs, gcs::looks_like as fn(&[u8]) -> bool),
@@ -92,7 +92,12 @@ impl DesignFormat {
         }
         // The reader of glTF reports the faults of such a file.
         let is_gltf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("gltf"));
-        Ok(if is_gltf { Self::Glb } else { Self::of_name(path).unwrap_or(Self::Toml) })
+        match Self::of_name(path) {
+            _ if is_gltf => Ok(Self::Glb),
+            Some(format) => Ok(format),
+            None if foreign::has_keys(bytes) => Ok(Self::Toml),
+            None => Err(foreign::unknown().into()),
+        }
     }
 }
 
