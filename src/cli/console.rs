@@ -2,6 +2,7 @@
 
 use crate::io::export::Event;
 use crate::io::{Failure, is_standard};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// The name of standard output, with which the message begins where it cannot be written.
@@ -10,7 +11,14 @@ pub const STANDARD_OUTPUT: &str = "standard output";
 /// Prints a line to standard error. Failures to write are ignored.
 pub fn say(text: &str) {
     use std::io::Write;
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", harmless(text));
+}
+
+/// Returns text without control characters but line breaks and tabs: a message may quote a file, and a terminal would obey
+/// what the file says.
+fn harmless(text: &str) -> Cow<'_, str> {
+    let is_command = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if text.contains(is_command) { text.replace(is_command, "\u{fffd}").into() } else { text.into() }
 }
 
 /// Prints an event of long work: the paths of written files to standard output, notes and warnings to standard error.
@@ -48,4 +56,15 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// Formats a value as indented JSON, with the keys in their given order.
 pub fn json(value: &serde_json::Value) -> String {
     format!("{value:#}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::harmless;
+
+    #[test]
+    fn a_message_that_quotes_a_file_gives_a_terminal_no_commands() {
+        assert_eq!(harmless("a\u{1b}[2Jb\u{9b}0m\0\r c"), "a\u{fffd}[2Jb\u{fffd}0m\u{fffd}\u{fffd} c");
+        assert!(matches!(harmless("Brücke: 1\t2\n3"), std::borrow::Cow::Borrowed(_)));
+    }
 }
