@@ -90,6 +90,9 @@ pub fn note_readings(other: &OtherReadings) {
     if other.of_bodies {
         say(&format!("note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"));
     }
+    if other.of_symmetry {
+        say(&format!("note: {path}: --as-found keeps the facets as found"));
+    }
     if other.of_shape {
         say(&format!("note: {path}: --as and --up choose how it is read"));
     }

@@ -20,6 +20,8 @@ pub struct OtherReadings {
     pub of_bodies: bool,
     /// True for a mesh that may be read in another form or direction.
     pub of_shape: bool,
+    /// True for a mesh whose facets may stay as they were found.
+    pub of_symmetry: bool,
 }
 
 /// The end of the message about a scene where a design is expected.
@@ -38,6 +40,8 @@ pub struct BuiltDesign {
     pub bodies: Vec<MeshBody>,
     /// True for a mesh that other options would read in another way, as its remarks say.
     pub has_other_reading: bool,
+    /// True for a mesh that was given a symmetry, which another option leaves out.
+    pub is_evened: bool,
     /// The standard errors of the facets of a scan; empty for other designs.
     pub errors: Vec<FacetError>,
 }
@@ -88,19 +92,19 @@ impl BuiltDesign {
     /// Returns whether other options read the file in another way.
     pub fn other_readings(&self) -> OtherReadings {
         let of_bodies = MeshBody::leave_a_choice(&self.bodies);
-        OtherReadings { path: self.path.clone(), of_bodies, of_shape: self.has_other_reading }
+        let (of_shape, of_symmetry) = (self.has_other_reading, self.is_evened);
+        OtherReadings { path: self.path.clone(), of_bodies, of_shape, of_symmetry }
     }
 
-    fn of(
-        path: String,
-        ImportedDesign { design, notes, warnings, bodies, has_other_reading, errors, .. }: ImportedDesign,
-    ) -> Result<Self, Failure> {
+    fn of(path: String, imported: ImportedDesign) -> Result<Self, Failure> {
+        let ImportedDesign { design, notes, warnings, bodies, has_other_reading, is_evened, errors, .. } =
+            imported;
         let made = Specimen::new(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
         let notes = notes.iter().map(|note| format!("note: {path}: {note}"));
         let unusual = made.unusual.iter().map(ToString::to_string);
         let warnings = warnings.into_iter().chain(unusual).chain(made.warnings.iter().cloned());
         let remarks = notes.chain(warnings.map(|w| format!("warning: {path}: {w}"))).collect();
-        Ok(Self { path, made, remarks, bodies, has_other_reading, errors })
+        Ok(Self { path, made, remarks, bodies, has_other_reading, is_evened, errors })
     }
 }
 

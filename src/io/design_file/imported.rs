@@ -21,6 +21,8 @@ pub struct ImportedDesign {
     /// True for a mesh whose notes say that other [`MeshOptions`](crate::io::mesh_options::MeshOptions) read it in another
     /// way.
     pub has_other_reading: bool,
+    /// True for a mesh that was given a symmetry, which another option leaves out.
+    pub is_evened: bool,
     /// The standard errors of the facets of a scan, in the order of the design's facets; empty for other designs.
     pub errors: Vec<FacetError>,
 }
@@ -29,7 +31,8 @@ impl ImportedDesign {
     /// Wraps a design without notes and warnings.
     pub fn of(design: Design) -> Self {
         let (notes, warnings, bodies, errors) = (vec![], vec![], vec![], vec![]);
-        Self { design, notes, warnings, doubt: None, bodies, has_other_reading: false, errors }
+        let (has_other_reading, is_evened) = (false, false);
+        Self { design, notes, warnings, doubt: None, bodies, has_other_reading, is_evened, errors }
     }
 
     /// Returns how messages call the bodies of a mesh of which one may be chosen, in the order of their numbers; none where

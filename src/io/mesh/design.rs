@@ -122,12 +122,8 @@ fn evened(symmetry: &Symmetry) -> Option<String> {
     let fold =
         (turns > 1).then(|| FOLDS.get(turns - 2).map_or(format!("{turns}-fold"), |fold| (*fold).to_owned()));
     let parts: Vec<String> = fold.into_iter().chain(symmetry.mirror.map(|_| "mirror".to_owned())).collect();
-    (!parts.is_empty()).then(|| {
-        format!(
-            "it was evened to {}, which it has except for its noise; read as found it would keep its facets as they are",
-            parts.join(", ")
-        )
-    })
+    (!parts.is_empty())
+        .then(|| format!("it was evened to {}, which it has except for its noise", parts.join(", ")))
 }
 
 /// The statements of a file besides its shape, and the place of its stone.
@@ -154,12 +150,15 @@ impl File {
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
         remarks.notes.extend(known_to(&errors));
-        remarks.notes.extend(evened(&made.evened));
+        let evened = evened(&made.evened);
+        let is_evened = evened.is_some();
+        remarks.notes.extend(evened);
         remarks.is_doubtful = made.doubt.is_some();
         remarks.has_other_reading = found.change.is_some() || made.doubt.is_some();
         remarks.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         remarks.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
-        let brought = ImportedDesign { errors, ..self.brought(Cut::Planes(facets), scale, remarks)? };
+        let brought =
+            ImportedDesign { errors, is_evened, ..self.brought(Cut::Planes(facets), scale, remarks)? };
         brought.design.check().map_err(Fault::whole)?;
         Ok(brought)
     }
