@@ -9,9 +9,7 @@ use std::path::Path;
 /// # Errors
 /// Fails with [`Failure::Usage`] where comments would be lost.
 pub fn keep(input: &Path, output: &Path, remedy: &str) -> Result<(), Failure> {
-    // What cannot be read as text, such as a mesh, has no comments that a cut file would keep.
-    let text = || std::fs::read_to_string(input).unwrap_or_default();
-    if !is_same(input, output) || !has_comments(&text()) {
+    if !is_same(input, output) || !has_comments(input) {
         return Ok(());
     }
     let path = output.display();

@@ -1,9 +1,18 @@
 //! Finds comments in TOML texts, which the parser drops.
 
+use super::cut_file::MAX_MESH_BYTES;
+use super::text;
+use std::path::Path;
+
+/// Returns whether a file is a TOML text with a comment. What cannot be read as text, such as a mesh, has none.
+pub fn has_comments(path: &Path) -> bool {
+    text::read(path, MAX_MESH_BYTES).is_ok_and(|text| is_commented(&text))
+}
+
 /// Returns whether a TOML text has a comment: a `#` outside of its strings.
 ///
 /// Source: TOML 1.0.0, *Comment* and *String*.
-pub fn has_comments(text: &str) -> bool {
+fn is_commented(text: &str) -> bool {
     let mut rest = text;
     while let Some(at) = rest.find(['#', '"', '\'']) {
         rest = &rest[at..];
@@ -48,7 +57,7 @@ mod tests {
         for text in
             ["# a", "a = 1 # b", "a = 'b' # c", "a = \"\\\"\" # b", "a = '\\' # b", "a = '''\n''' # b"]
         {
-            assert!(has_comments(text), "{text}");
+            assert!(is_commented(text), "{text}");
         }
         for text in [
             "",
@@ -59,7 +68,7 @@ mod tests {
             "a = \"\"\"\n# \\\" b\"\"\"",
             "a = \"é # ",
         ] {
-            assert!(!has_comments(text), "{text}");
+            assert!(!is_commented(text), "{text}");
         }
     }
 }

@@ -45,9 +45,9 @@ pub fn save(request: SaveRequest) -> Result<SavedDesign, Failure> {
     let path = if path.extension().is_some() { path } else { completed };
     let specimen = specimen.remade(design.clone()).map_err(|e| Failure::Input(e.to_string()))?;
     let format = DesignFormat::of_name(&path).unwrap_or(DesignFormat::Toml);
-    let before = std::fs::read_to_string(&path).unwrap_or_default();
+    let had_comments = format == DesignFormat::Toml && has_comments(&path);
     let mut lost = design_file::write(&specimen, format, &path)?;
-    if format == DesignFormat::Toml && has_comments(&before) {
+    if had_comments {
         lost.push("the comments of the file that was there are not kept".to_owned());
     }
     Ok(SavedDesign { stamp: Stamp::of(&path), path, design, lost })
