@@ -6,10 +6,11 @@ use super::meets::KnownMeets;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
 use crate::cut::{Cut, Design};
-use crate::io::Failure;
+use crate::io::bodies_scene::BodiesScene;
 use crate::io::design_file::{self, DesignFormat};
+use crate::io::{Failure, WriteError, is_standard, scene_file, write};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct Convert {
@@ -25,6 +26,9 @@ pub struct Convert {
     /// move each tier to the distance that follows. A cut by proportions is turned into tiers first, named P1, G1, C1, T
     #[arg(long)]
     meets: bool,
+    /// Write a scene of all bodies of a mesh instead, each where it lies in the file
+    #[arg(long, conflicts_with_all = ["size", "form", "part", "as_found", "meets", "format"])]
+    scene: bool,
     /// Write over the file that is read even if its comments are lost
     #[arg(long)]
     drop_comments: bool,
@@ -34,6 +38,9 @@ pub struct Convert {
 
 impl Convert {
     pub fn run(&self) -> Result<(), Failure> {
+        if self.scene {
+            return self.write_scene();
+        }
         let format = self.format.or_else(|| DesignFormat::of_name(&self.output)).ok_or_else(|| {
             let endings: Vec<String> =
                 DesignFormat::ALL.iter().map(|format| format!(".{}", format.ending())).collect();
@@ -54,6 +61,27 @@ impl Convert {
         for what in lost {
             say(&format!("note: {}: {what}", self.output.display()));
         }
+        Ok(())
+    }
+}
+
+impl Convert {
+    fn write_scene(&self) -> Result<(), Failure> {
+        let output = self.output.display();
+        let is_toml = DesignFormat::of_name(&self.output) == Some(DesignFormat::Toml);
+        if !is_toml && !is_standard(&self.output) {
+            return Err(Failure::Usage(format!(
+                "{output}: --scene writes a scene file; give a name that ends in .toml"
+            )));
+        }
+        let folder = self.output.parent().unwrap_or(Path::new(""));
+        let BodiesScene { scene, warnings } = self.specimen.scene_of_bodies(&self.input, folder)?;
+        let path = self.input.display();
+        warnings.iter().for_each(|warning| say(&format!("warning: {path}: {warning}")));
+        let text = scene_file::write(&scene);
+        write(&self.output, |file| {
+            file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&self.output, e))
+        })?;
         Ok(())
     }
 }

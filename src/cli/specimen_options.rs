@@ -3,9 +3,10 @@
 use super::console::say;
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, asked_material, note_readings};
-use crate::cut::Size;
+use crate::cut::{MaterialRef, Size};
 use crate::io::Failure;
 use crate::io::assembly::Assembly;
+use crate::io::bodies_scene::{BodiesScene, scene_of_bodies};
 use clap::Args;
 use std::path::Path;
 
@@ -65,13 +66,25 @@ impl SpecimenOptions {
     /// # Errors
     /// Fails where [`Assembly::load`] does, and where the material is not known.
     pub fn load_assembly(&self, file: &Path) -> Result<Assembly, Failure> {
-        let material =
-            self.material.as_deref().map(|text| asked_material(text).map(|(named, _)| named)).transpose()?;
+        let material = self.named_material()?;
         let SizeOptions { size, mesh } = &self.sized;
         let assembly = Assembly::load(file, material.as_ref(), *size, &mesh.sized(*size))?;
         assembly.remarks.iter().for_each(|remark| say(remark));
         assembly.other_readings.iter().for_each(note_readings);
         Ok(assembly)
+    }
+
+    /// Makes a scene of the bodies of a mesh, to be written into a folder.
+    ///
+    /// # Errors
+    /// Fails where [`scene_of_bodies`] does, and where the material is not known.
+    pub fn scene_of_bodies(&self, file: &Path, folder: &Path) -> Result<BodiesScene, Failure> {
+        let options = self.sized.mesh.options();
+        Ok(scene_of_bodies(file, folder, &options, self.named_material()?)?)
+    }
+
+    fn named_material(&self) -> Result<Option<MaterialRef>, Failure> {
+        self.material.as_deref().map(|text| asked_material(text).map(|(named, _)| named)).transpose()
     }
 
     /// Returns the options as command-line words, with numbers in a fixed form.

@@ -18,9 +18,9 @@ const IN_FRAME: f64 = 1e-9;
 pub struct MeshShape(pub Arc<TriangleMesh>);
 
 impl MeshShape {
-    /// Turns a surface and moves it into the stone's frame, unless it lies there already. Returns the shape and the factor
-    /// by which it was scaled; `None` where the surface has no extent across.
-    pub fn framed(mesh: &TriangleMesh, turn: DQuat) -> Option<(Self, f64)> {
+    /// Turns a surface and moves it into the stone's frame, unless it lies there already. Returns the shape and the pose
+    /// that carried it there; `None` where the surface has no extent across.
+    pub fn framed(mesh: &TriangleMesh, turn: DQuat) -> Option<(Self, Pose)> {
         let corners: Vec<DVec3> = mesh.vertices().iter().map(|&v| turn * v).collect();
         let around = hull(corners.iter().map(|v| v.truncate()).collect());
         let Calipers { width, middle, .. } = Calipers::of_stone(&around)?;
@@ -28,11 +28,13 @@ impl MeshShape {
         let scale = 2.0 / outline::diameter(&around, middle, width);
         let shift = -scale * middle.extend((low + high) / 2.0);
         let is_framed = (scale - 1.0).abs() < IN_FRAME && shift.length() < IN_FRAME;
+        let pose = Pose { at: shift, turn, scale };
         let mesh = match is_framed && turn == DQuat::IDENTITY {
             true => mesh.clone(),
-            false => mesh.reframed(&Pose { at: shift, turn, scale }),
+            false => mesh.reframed(&pose),
         };
-        Some((Self(Arc::new(mesh)), if is_framed { 1.0 } else { scale }))
+        let pose = if is_framed { Pose::turned(turn) } else { pose };
+        Some((Self(Arc::new(mesh)), pose))
     }
 }
 

@@ -8,6 +8,8 @@ pub mod assembly;
 mod atomic;
 pub mod background;
 #[cfg(feature = "interchange")]
+pub mod bodies_scene;
+#[cfg(feature = "interchange")]
 pub mod built_design;
 pub mod cut_file;
 #[cfg(feature = "interchange")]

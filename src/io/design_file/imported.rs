@@ -3,6 +3,7 @@
 use crate::cut::Design;
 use crate::cut::from_mesh::FacetError;
 use crate::io::mesh::MeshBody;
+use crate::math::Pose;
 
 /// A design that was read from a file, with notes and warnings.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,8 @@ pub struct ImportedDesign {
     /// True for a mesh whose notes say that other [`MeshOptions`](crate::io::mesh_options::MeshOptions) read it in another
     /// way.
     pub has_other_reading: bool,
+    /// For a mesh, the pose that carried the points of its file into the stone's frame.
+    pub pose: Option<Pose>,
     /// True for a mesh that was given a symmetry, which another option leaves out.
     pub is_evened: bool,
     /// The standard errors of the facets of a scan, in the order of the design's facets; empty for other designs.
@@ -32,7 +35,17 @@ impl ImportedDesign {
     pub fn of(design: Design) -> Self {
         let (notes, warnings, bodies, errors) = (vec![], vec![], vec![], vec![]);
         let (has_other_reading, is_evened) = (false, false);
-        Self { design, notes, warnings, doubt: None, bodies, has_other_reading, is_evened, errors }
+        Self {
+            design,
+            notes,
+            warnings,
+            doubt: None,
+            bodies,
+            has_other_reading,
+            pose: None,
+            is_evened,
+            errors,
+        }
     }
 
     /// Returns how messages call the bodies of a mesh of which one may be chosen, in the order of their numbers; none where

@@ -1,16 +1,16 @@
 //! Makes stones from meshes: a convex stone becomes planes, any other triangles.
 
-use super::file::{self, MaterialHint, MeshFile};
+use super::file::{self, MaterialHint, MeshFile, MeshFormat, Statement};
 use super::parts::ChosenPart;
-use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
+use super::place::{MeshPlace, MeshRemarks, axes, doubtful, usual_up};
 use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, directions, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
-use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
 use crate::math::faceting::{Change, Faceted, NotFaceted, SurfaceKind, faceted_hull, facets, is_noisy};
-use crate::math::mending::{Mended, SurfaceError};
-use crate::math::{Surface, Symmetry, TriangleMesh, signed};
+use crate::math::mending::{Mended, OpenPiece, SurfaceError};
+use crate::math::{Pose, Surface, Symmetry, TriangleMesh, signed};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -22,36 +22,78 @@ const USUAL: &str = "diamond";
 /// # Errors
 /// Fails where the mesh makes no stone; the error has the path and the place.
 pub fn read(bytes: Vec<u8>, path: &Path, options: &MeshOptions) -> Result<ImportedDesign, FileError> {
-    let label = path.display().to_string();
-    let MeshFile { format, surface, hint, statement, mut notes, mut warnings, name, .. } =
-        file::parse(bytes, &label, path.parent())?;
-    let (mended, open) =
-        surface.mend_closed().map_err(|error| unmended(&warnings, &error).in_file(&label))?;
-    notes.extend(told_of(&mended));
-    let chosen = ChosenPart::of(&mended, open, &options.part, statement.is_some());
-    let chosen = chosen.map_err(|fault| fault.in_file(&label))?;
-    notes.extend(chosen.notes);
-    warnings.extend(chosen.warning);
-    let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
-    let evening = options.evening;
-    let file = File { hint, name, place: MeshPlace::of(format, options, statement), evening };
-    let mut brought = match options.form {
-        MeshForm::Triangles => file.triangles(chosen.surface, None),
-        MeshForm::Faceted => {
-            faceted_hull(chosen.surface).map_err(impossible).and_then(|found| file.planes(&found))
-        }
-        MeshForm::Found => match facets(chosen.surface) {
-            SurfaceKind::Convex(found) => file.planes(&found),
-            SurfaceKind::Concave(surface) => {
-                let why = if is_noisy(&surface) { HIDDEN } else { NOT_CONVEX };
-                file.triangles(surface, Some(why))
-            }
-        },
+    ClosedFile::of(bytes, path)?.design(options)
+}
+
+/// Reads every body of a mesh that lies inside no other, as [`read`] reads one, in the order of their numbers. `most` is the
+/// largest number of them.
+///
+/// # Errors
+/// Fails where one of them makes no stone, or where there are more; the error has the path and the place.
+pub fn read_bodies(
+    bytes: Vec<u8>,
+    path: &Path,
+    options: &MeshOptions,
+    most: usize,
+) -> Result<Vec<(MeshPart, ImportedDesign)>, FileError> {
+    let file = ClosedFile::of(bytes, path)?;
+    let apart = (1..).zip(&file.mended.parts).filter(|(_, part)| part.within.is_none());
+    let parts: Vec<MeshPart> = apart.map(|(number, _)| MeshPart::Number(number)).collect();
+    if parts.len() > most {
+        let problem = format!("{} bodies are in the file, and at most {most} are read at once", parts.len());
+        return Err(FileError::new(path.display(), problem));
     }
-    .map_err(|fault| fault.in_file(&label))?;
-    brought.notes.splice(0..0, notes);
-    brought.warnings.splice(0..0, warnings);
-    Ok(ImportedDesign { bodies: chosen.bodies, ..brought })
+    let read = |part: MeshPart| {
+        let design = file.design(&MeshOptions { part: part.clone(), ..options.clone() })?;
+        Ok((part, design))
+    };
+    parts.into_iter().map(read).collect()
+}
+
+/// Returns the direction that is up in a file with these bytes, unless a person says another: y in glTF, else z.
+pub fn upward(bytes: &[u8]) -> DVec3 {
+    file::looks_like(bytes).map_or(DVec3::Z, usual_up)
+}
+
+/// The closed surface of a mesh file, before one of its bodies is taken.
+struct ClosedFile {
+    label: String,
+    format: MeshFormat,
+    name: String,
+    hint: Option<MaterialHint>,
+    statement: Option<Statement>,
+    mended: Mended,
+    open: Vec<OpenPiece>,
+    notes: Vec<String>,
+    warnings: Vec<String>,
+}
+
+impl ClosedFile {
+    fn of(bytes: Vec<u8>, path: &Path) -> Result<Self, FileError> {
+        let label = path.display().to_string();
+        let MeshFile { format, surface, hint, statement, mut notes, warnings, name, .. } =
+            file::parse(bytes, &label, path.parent())?;
+        let (mended, open) =
+            surface.mend_closed().map_err(|error| unmended(&warnings, &error).in_file(&label))?;
+        notes.extend(told_of(&mended));
+        let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
+        Ok(Self { label, format, name, hint, statement, mended, open, notes, warnings })
+    }
+
+    /// Makes a design of the body that the options choose.
+    fn design(&self, options: &MeshOptions) -> Result<ImportedDesign, FileError> {
+        let in_file = |fault: Fault| fault.in_file(&self.label);
+        let (open, is_stated) = (self.open.clone(), self.statement.is_some());
+        let chosen = ChosenPart::of(&self.mended, open, &options.part, is_stated).map_err(in_file)?;
+        let place = MeshPlace::of(self.format, options, self.statement.clone());
+        let (hint, name) = (self.hint.clone(), self.name.clone());
+        let file = File { hint, name, place, evening: options.evening };
+        let brought = file.of_form(options.form, chosen.surface).map_err(in_file)?;
+        let notes = [self.notes.clone(), chosen.notes, brought.notes].concat();
+        let warnings =
+            [self.warnings.clone(), chosen.warning.into_iter().collect(), brought.warnings].concat();
+        Ok(ImportedDesign { bodies: chosen.bodies, notes, warnings, ..brought })
+    }
 }
 
 /// Returns the fault of a surface that cannot be mended, behind the warnings about what was left out of it: they may be the
@@ -135,6 +177,22 @@ struct File {
 }
 
 impl File {
+    fn of_form(self, form: MeshForm, surface: Surface) -> Result<ImportedDesign, Fault> {
+        match form {
+            MeshForm::Triangles => self.triangles(surface, None),
+            MeshForm::Faceted => {
+                faceted_hull(surface).map_err(impossible).and_then(|found| self.planes(&found))
+            }
+            MeshForm::Found => match facets(surface) {
+                SurfaceKind::Convex(found) => self.planes(&found),
+                SurfaceKind::Concave(surface) => {
+                    let why = if is_noisy(&surface) { HIDDEN } else { NOT_CONVEX };
+                    self.triangles(surface, Some(why))
+                }
+            },
+        }
+    }
+
     fn planes(mut self, found: &Faceted) -> Result<ImportedDesign, Fault> {
         let mut remarks = MeshRemarks::default();
         let surface = found.surface.moved(found.centre);
@@ -144,6 +202,7 @@ impl File {
         // A known size goes before the width that was found.
         let scale = self.place.scale.unwrap_or(pose.scale);
         let rescaled = scale / pose.scale;
+        let pose = Pose { at: rescaled * pose.at, scale, ..pose };
         facets.iter_mut().for_each(|(_, plane)| plane.offset *= rescaled);
         let (count, deviation) = (facets.len(), made.deviation * rescaled);
         remarks.notes.push(format!(
@@ -158,7 +217,7 @@ impl File {
         remarks.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         remarks.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
         let brought =
-            ImportedDesign { errors, is_evened, ..self.brought(Cut::Planes(facets), scale, remarks)? };
+            ImportedDesign { errors, is_evened, ..self.brought(Cut::Planes(facets), pose, remarks)? };
         brought.design.check().map_err(Fault::whole)?;
         Ok(brought)
     }
@@ -175,21 +234,22 @@ impl File {
             }
             Up::Found => DQuat::IDENTITY,
         };
-        let (shape, scale) =
+        let (shape, pose) =
             MeshShape::framed(&mesh, turn).ok_or("it has no extent across the direction up")?;
         // A known size stays the same in mm, though this frame may have another scale than the frame of the written
         // stone.
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
-            *diameter_mm *= known / scale;
+            *diameter_mm *= known / pose.scale;
         }
         remarks.has_other_reading = why.is_some();
         remarks.notes.extend(why.map(str::to_owned));
         remarks.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
-        self.brought(Cut::Mesh(shape), scale, remarks)
+        self.brought(Cut::Mesh(shape), pose, remarks)
     }
 
-    /// Makes the design of a cut, with `scale` girdle radii per unit of the file.
-    fn brought(self, cut: Cut, scale: f64, mut remarks: MeshRemarks) -> Result<ImportedDesign, Fault> {
+    /// Makes the design of a cut, which a pose carried from the file.
+    fn brought(self, cut: Cut, pose: Pose, mut remarks: MeshRemarks) -> Result<ImportedDesign, Fault> {
+        let scale = pose.scale;
         let diameter_mm = self.place.diameter_mm(scale, &mut remarks)?;
         let MeshRemarks { mut notes, mut warnings, is_doubtful, has_other_reading } = remarks;
         let (material, why) = self.material(0.5 * diameter_mm * scale);
@@ -199,7 +259,8 @@ impl File {
         }
         let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
         let doubt = Some(is_doubtful);
-        Ok(ImportedDesign { notes, warnings, doubt, has_other_reading, ..ImportedDesign::of(design) })
+        let pose = Some(pose);
+        Ok(ImportedDesign { notes, warnings, doubt, has_other_reading, pose, ..ImportedDesign::of(design) })
     }
 
     /// Returns the material that the file states, with a note where it states none, or a warning where the library

@@ -23,7 +23,7 @@ mod size;
 #[allow(clippy::print_stdout, reason = "a test that is left out says so")]
 mod trials;
 
-pub use design::read;
+pub use design::{read, read_bodies, upward};
 pub use export::{FINENESS, Stated, stated_in_stl, write_glb, write_obj, write_ply, write_stl};
 pub use file::{MAX_BYTES, MaterialHint, MeshFile, looks_like, parse};
 pub use metal::{read_shaded, write_shaded};

@@ -47,10 +47,7 @@ impl MeshPlace {
     /// Starts from a file's format. A direction up and a unit that a person gives count above all else.
     pub fn of(format: MeshFormat, options: &MeshOptions, statement: Option<Statement>) -> Self {
         let given = match options.up {
-            // The standard of glTF has y up. The other formats state no direction, and stones are usually modelled
-            // with z up.
-            Up::Found if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) => Up::FoundBy(DVec3::Y),
-            Up::Found => Up::FoundBy(DVec3::Z),
+            Up::Found => Up::FoundBy(usual_up(format)),
             other => other,
         };
         Self { given, format, unit: options.unit, statement, scale: None, diameter_mm: None, material: None }
@@ -157,6 +154,12 @@ fn axis(direction: DVec3) -> String {
         let [x, y, z] = direction.to_array().map(|x| (x * 1e4).round() / 1e4 + 0.0);
         format!("{x},{y},{z}")
     })
+}
+
+/// Returns the direction that is up in files of a format: y by the standard of glTF. The other formats state no direction,
+/// and stones are usually modelled with z up.
+pub(super) fn usual_up(format: MeshFormat) -> DVec3 {
+    if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) { DVec3::Y } else { DVec3::Z }
 }
 
 /// Returns the axes of a file, each in both directions.

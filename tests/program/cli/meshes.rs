@@ -126,6 +126,19 @@ fn one_of_several_bodies_is_chosen_by_its_number_or_name_in_every_command() {
         code != 0 && stderr.contains("two.obj: there is no body 3 in the file, which has 1 `low`"),
         "{stderr}"
     );
+    // A scene of both renders as they lie.
+    let (code, _, stderr) = desk.run("convert --scene --material ruby two.obj both.toml");
+    assert!(code == 0 && stderr.contains("is no closed surface and is left out"), "{stderr}");
+    let (_, printed, _) = desk.run("info --json both.toml");
+    let value: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    let at = |k: usize, axis: usize| value["stones"][k]["at_mm"][axis].as_f64().unwrap();
+    assert!((at(1, 0) - at(0, 0) - 15.0).abs() < 1e-6, "{printed}");
+    assert_eq!(
+        (value["stones"].as_array().unwrap().len(), &value["stones"][1]["material"]),
+        (2, &"ruby".into())
+    );
+    let refused = desk.refused("convert --scene two.obj both.obj", 2);
+    assert!(refused.contains("--scene writes a scene file"), "{refused}");
     desk.write("one.obj", &body("low", 1, 5));
     let (_, printed, _) = desk.run("info --json one.obj");
     assert!(printed.contains("triangles") && !printed.contains("bodies"), "{printed}");
