@@ -80,7 +80,7 @@ impl SpecimenOptions {
     /// Fails where [`scene_of_bodies`] does, and where the material is not known.
     pub fn scene_of_bodies(&self, file: &Path, folder: &Path) -> Result<BodiesScene, Failure> {
         let options = self.sized.mesh.options();
-        Ok(scene_of_bodies(file, folder, &options, self.named_material()?)?)
+        Ok(scene_of_bodies(file, folder, &options, self.named_material()?.as_ref())?)
     }
 
     fn named_material(&self) -> Result<Option<MaterialRef>, Failure> {
@@ -113,13 +113,13 @@ mod tests {
         let mut count = 0;
         for command in line.get_subcommands() {
             let options = options(command);
-            let is_there = |option: &&str| options.iter().any(|own| own == *option);
-            if !ALL.iter().any(|option| is_there(&option)) {
+            let is_there = |option: &&str| options.iter().any(|own| own == option);
+            if !ALL.iter().any(is_there) {
                 continue;
             }
             count += 1;
             let wanted = if command.get_name() == "edit" { &ALL[2..] } else { &ALL };
-            let missing: Vec<&&str> = wanted.iter().filter(|option| !is_there(option)).collect();
+            let missing: Vec<&&str> = wanted.iter().filter(|option| !is_there(*option)).collect();
             assert!(missing.is_empty(), "{}: {missing:?}", command.get_name());
         }
         assert!(count > 10, "{count}");

@@ -33,7 +33,7 @@ pub fn scene_of_bodies(
     file: &Path,
     folder: &Path,
     options: &MeshOptions,
-    material: Option<MaterialRef>,
+    material: Option<&MaterialRef>,
 ) -> Result<BodiesScene, FileError> {
     let label = file.display().to_string();
     let bytes = text::read_bytes(file, mesh::MAX_BYTES).map_err(|fault| fault.in_file(&label))?;
@@ -52,7 +52,7 @@ pub fn scene_of_bodies(
         let entry =
             Entry::placed(&cut, upright * pose.turn.inverse(), mm * (upright * pose.unplace(DVec3::ZERO)));
         let size = Some(Size::Millimetres(2.0 * mm / pose.scale));
-        Entry { part, size, material: material.clone(), ..entry }
+        Entry { part, size, material: material.cloned(), ..entry }
     };
     let scene = placed(file, bodies.into_iter().map(entry).collect());
     // What a scene file may not hold is refused here, in the words of its reader.

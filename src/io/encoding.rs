@@ -62,7 +62,7 @@ impl Wide {
         let length = if matches!(self, Self::Utf16Little | Self::Utf16Big) { 2 } else { 4 };
         let is_big = matches!(self, Self::Utf16Big | Self::Utf32Big);
         bytes.chunks_exact(length).map(move |unit| {
-            let joined = |unit: u32, byte: &u8| unit << 8 | u32::from(*byte);
+            let joined = |unit: u32, byte: &u8| (unit << 8) | u32::from(*byte);
             if is_big { unit.iter().fold(0, joined) } else { unit.iter().rev().fold(0, joined) }
         })
     }

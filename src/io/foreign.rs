@@ -138,20 +138,22 @@ fn by_lines(text: &[u8]) -> Option<&'static str> {
     if is_iges {
         return Some("IGES");
     }
-    let content = std::iter::once(first).chain(lines.clone()).map(<[u8]>::trim_ascii);
-    let word = content.filter(|line| !line.is_empty() && !line.starts_with(b"#")).next().map(|line| {
-        let end = line.iter().position(|byte| matches!(byte, b' ' | b'\t')).unwrap_or(line.len());
-        (line[..end].to_ascii_lowercase(), line[end..].trim_ascii_start())
-    });
-    // A key of TOML may be called so too.
-    let is_off = |(word, rest): &(Vec<u8>, &[u8])| OFF.contains(&&**word) && !rest.starts_with(b"=");
-    if word.as_ref().is_some_and(is_off) {
+    if is_off(text) {
         return Some("OFF");
     }
     // DXF is made of pairs of lines, a number and a value; 999 is a comment.
     let pairs: Vec<&[u8]> = std::iter::once(first).chain(lines).take(64).map(<[u8]>::trim_ascii).collect();
     let mut pairs = pairs.as_chunks::<2>().0.iter().skip_while(|[code, _]| *code == b"999");
     pairs.next().filter(|pair| **pair == [b"0".as_slice(), b"SECTION"]).map(|_| "DXF")
+}
+
+/// Returns whether the first line that is no comment begins with a word of OFF; a key of TOML may be called so too.
+fn is_off(text: &[u8]) -> bool {
+    let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    let Some(line) = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")) else { return false };
+    let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+    let (word, rest) = line.split_at(end);
+    OFF.contains(&&*word.to_ascii_lowercase()) && !rest.trim_ascii_start().starts_with(b"=")
 }
 
 #[cfg(test)]

@@ -224,7 +224,7 @@ fn a_scene_takes_the_bodies_of_one_mesh_one_by_one() {
     assert!(high > 1.5 * low, "{low} {high}");
     // The scene chooses the bodies, so that nothing is left to choose.
     assert!(bodies.other_readings.iter().all(|other| !other.of_bodies), "{:?}", bodies.other_readings);
-    let alone = load(&folder.path().join("two.obj"));
+    let alone = load(folder.path().join("two.obj"));
     assert!(alone.other_readings[0].of_bodies && alone.other_readings[0].path.ends_with("two.obj"));
     std::fs::write(&path, "format = 1\nname = \"x\"\n[[stone]]\ncut = \"two.obj\"\n").unwrap();
     assert!(load(&path).other_readings[0].of_bodies);
