@@ -54,6 +54,8 @@ fn every_writing_of_obj_is_read() {
     let comma = "has a decimal comma and is read as";
     same(&[
         (obj.replace("v ", "V ").replace("f ", "F "), ""),
+        (obj.replace("v 1 0 0", "v １ \u{2212}0 +0"), ""),
+        (obj.replace("v 1 0 0", "v 1.0D+00 0 0"), ""),
         (obj.replace("v 1 0 0", "v 1,0 0,0 0,0 # a corner"), comma),
         (obj.replace("v 1 0 0", "v 1.0e+00 .0 0. 0.5 0.5 0.5"), ""),
         (obj.clone() + "v nan nan nan\nl 1 2\np 1\nf 1 2\n", "1 faces of fewer than three corners"),
@@ -68,6 +70,10 @@ fn every_writing_of_stl_is_read() {
     same(&[
         (stl.replace("facet normal 0 0 0", "facet normal nan inf -NaN"), ""),
         (stl.replace("facet normal 0 0 0", "facet normal"), ""),
+        (stl.replace("facet normal 0 0 0", "facet normal -nan(ind) 1.#QNAN x"), ""),
+        (stl.replace("outer loop", "outerloop"), ""),
+        (stl.replace('\n', " "), ""),
+        (stl.clone() + "\u{1a}\0\0", ""),
         (stl.replace("facet normal 0 0 0", "color 0.5 0.5 0.5\nfacet"), ""),
         (
             stl.replace("endloop", "end loop")
@@ -151,6 +157,37 @@ fn every_writing_of_ply_is_read() {
         (ply.replace("uchar red", "float quality").replace("255", "nan"), ""),
         (strips, ""),
     ]);
+}
+
+#[test]
+fn names_in_an_old_encoding_come_out_whole() {
+    let latin = |text: String| text.chars().map(|c| c as u8).collect::<Vec<u8>>();
+    let name = |bytes| parse(bytes, "f", None).unwrap().name;
+    assert_eq!(name(latin(format!("o Brücke\n{}", obj_text()))), "Brücke");
+    let stl = stl_text();
+    let (first, rest) = stl.split_once('\n').unwrap();
+    assert!(first.starts_with("solid"));
+    assert_eq!(name(latin(format!("solid Brücke\n{rest}"))), "Brücke");
+}
+
+#[test]
+fn what_a_text_lacks_is_read_by_the_name_of_its_file_or_said_with_its_line() {
+    let stl = stl_text();
+    let rest = stl.split_once('\n').unwrap().1.to_owned();
+    for text in [rest.clone(), format!("# made by hand\n{stl}")] {
+        assert!(parse(text.clone().into_bytes(), "f.stl", None).is_ok());
+        let error = parse(text.into_bytes(), "f", None).unwrap_err().to_string();
+        assert!(error.contains("this is not a mesh"), "{error}");
+    }
+    for (label, text, message) in [
+        ("f.obj", "# a\nv 0;0;1\n", "f.obj:2: '0;0;1' is not a number"),
+        ("f.gltf", "// a\n{\"asset\":{}}", "f.gltf:1: this glTF 2.0 cannot be read"),
+        ("f.obj", "hello", "f.obj: this is not a mesh"),
+        ("f.stl", "<!doctype html><p>vertex", "f.stl: this is a web page"),
+    ] {
+        let error = parse(text.as_bytes().to_vec(), label, None).unwrap_err().to_string();
+        assert!(error.starts_with(message), "{error}");
+    }
 }
 
 #[test]
