@@ -85,13 +85,7 @@ impl Members {
         let mut explained: Vec<bool> =
             lies.iter().map(|&(f, d)| d.abs() <= OUTLIER * facets[f].noise).collect();
         if are_shared {
-            // All corners of a narrow facet may lie on its edges, and so on its neighbours; then its triangles lie deep.
-            let deep = |t: &&[u32; 3]| {
-                let middle = t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
-                let (f, distance) = outermost(&planes, middle);
-                distance < -OUTLIER * facets[f].noise
-            };
-            let deep: Vec<&[u32; 3]> = corners.triangles.par_iter().filter(deep).collect();
+            let deep = deep_triangles(corners, &planes, &facets);
             deep.into_iter().flatten().for_each(|&v| explained[v as usize] = false);
         }
         let deviation = lies.iter().map(|(_, d)| d.abs()).fold(0.0, f64::max);
@@ -108,6 +102,31 @@ impl Members {
         };
         self.of.par_iter().map(sums).collect()
     }
+}
+
+/// Returns the triangles that lie deeper below a solid than noise explains: all corners of a narrow facet may lie on its edges, and
+/// so on its neighbours, but the triangles between them do not.
+///
+/// The noise of a triangle's middle is less than that of its corners, by a part that depends on their correlation.
+fn deep_triangles<'a>(corners: &Corners<'a>, planes: &[Plane], facets: &[Outlined]) -> Vec<&'a [u32; 3]> {
+    let depth = |t: &[u32; 3]| {
+        let (f, distance) = outermost(planes, t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0);
+        // Planes that fit without any noise leave only rounding.
+        distance / facets[f].noise.max(f64::MIN_POSITIVE)
+    };
+    let depths: Vec<f64> = corners.triangles.par_iter().map(depth).collect();
+    let noise = median(depths.iter().map(|d| d.abs()).collect()) / MEDIAN;
+    let is_deep = |of: &(&[u32; 3], &f64)| *of.1 < -OUTLIER * noise.min(1.0);
+    corners.triangles.iter().zip(&depths).filter(is_deep).map(|(t, _)| t).collect()
+}
+
+/// The median of the size of a number that is distributed normally, in standard deviations.
+const MEDIAN: f64 = 0.674_489_75;
+
+/// Returns the median; 0 of no numbers.
+fn median(mut sizes: Vec<f64>) -> f64 {
+    let middle = sizes.len() / 2;
+    if sizes.is_empty() { 0.0 } else { *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 fn outlined(solid: &Polytope, noises: &[f64]) -> Vec<Outlined> {
@@ -159,19 +178,13 @@ fn has_corners_on_edges(
 pub(super) fn noises(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> Vec<f64> {
     /// A median of fewer corners is too uncertain.
     const MANY: usize = 30;
-    /// The median of the size of a number that is distributed normally, in standard deviations.
-    const MEDIAN: f64 = 0.674_489_75;
     let sizes = |(fit, members): (&PlaneEstimate, &Vec<u32>)| -> Vec<f64> {
         members.iter().map(|&v| fit.plane.distance(corners.at[v as usize]).abs()).collect()
     };
     let each: Vec<Vec<f64>> = fits.par_iter().zip(&members.of).map(sizes).collect();
     let freedom = |sizes: &Vec<f64>| (sizes.len() as f64 / (sizes.len() as f64 - 3.0).max(0.5)).sqrt();
-    let median = |mut sizes: Vec<f64>| {
-        let middle = sizes.len() / 2;
-        if sizes.is_empty() { 0.0 } else { *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN }
-    };
     let scaled = each.iter().filter(|sizes| sizes.len() > 3);
-    let common = median(scaled.flat_map(|sizes| sizes.iter().map(|d| d * freedom(sizes))).collect());
-    let own = |sizes: Vec<f64>| if sizes.len() < MANY { common } else { median(sizes).max(common) };
+    let common = median(scaled.flat_map(|sizes| sizes.iter().map(|d| d * freedom(sizes))).collect()) / MEDIAN;
+    let own = |sizes: Vec<f64>| if sizes.len() < MANY { common } else { (median(sizes) / MEDIAN).max(common) };
     each.into_par_iter().map(own).collect()
 }
