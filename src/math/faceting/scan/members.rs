@@ -67,11 +67,17 @@ impl Members {
         let are_shared = has_corners_on_edges(corners, solid, &facets, &lies);
         let is_near = |facet: &Outlined, v: DVec3| facet.plane.distance(v).abs() <= OUTLIER * facet.noise;
         let of = if are_shared {
-            let on = |facet: &Outlined| {
-                let lies = |v: &DVec3| is_near(facet, *v) && facet.beyond(*v) <= BORDER * facet.noise;
-                (0..).zip(corners.at).filter(|(_, v)| lies(v)).map(|(v, _)| v).collect()
-            };
-            facets.par_iter().map(on).collect()
+            let middle = |t: &[u32; 3]| t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
+            let on: Vec<usize> = corners.triangles.par_iter().map(|t| outermost(&planes, middle(t)).0).collect();
+            let mut of = vec![vec![]; facets.len()];
+            for (&f, t) in on.iter().zip(corners.triangles) {
+                of[f].extend(t.iter().filter(|&&v| is_near(&facets[f], corners.at[v as usize])));
+            }
+            of.par_iter_mut().for_each(|of: &mut Vec<u32>| {
+                of.sort_unstable();
+                of.dedup();
+            });
+            of
         } else {
             let inside = |(v, &(f, _)): (usize, &(usize, f64))| {
                 let (facet, at) = (&facets[f], corners.at[v]);
