@@ -24,6 +24,8 @@ pub struct Scan {
     pub corners: Corners,
     /// The part of the corners that is kept; the others are taken out where the noiseless surface stays the same.
     pub kept: f64,
+    /// Whether triangles may become needles where corners are taken out.
+    pub needles: bool,
     /// The standard deviation of the noise along x, y and z, micrometres.
     pub noise_um: DVec3,
     /// The number of times that the noise is averaged over neighbouring corners, so that it is correlated; its standard
@@ -42,6 +44,7 @@ impl Scan {
         Self {
             corners: Corners::Meshed(triangles),
             kept: 1.0,
+            needles: false,
             noise_um: DVec3::splat(noise_um),
             blurs: 0,
             step_um: 0.0,
@@ -64,7 +67,7 @@ impl Scan {
             Corners::Radial(count) => (radial(&solid, count), vec![]),
         };
         if self.kept < 1.0 {
-            surface = thinned(&surface, &facets, self.kept, &mut random);
+            surface = thinned(&surface, &facets, self, &mut random);
         }
         let noise = self.noise(&surface, &mut random);
         let step = 1e-3 * self.step_um;
@@ -204,7 +207,7 @@ fn radial(solid: &Polytope, count: u32) -> Surface {
 
 /// Takes corners out of a surface, each together with the two triangles along an edge to a neighbour, in random order, where
 /// all triangles stay on their facets.
-fn thinned(surface: &Surface, facets: &[u32], kept: f64, random: &mut Random) -> Surface {
+fn thinned(surface: &Surface, facets: &[u32], scan: &Scan, random: &mut Random) -> Surface {
     let count = surface.vertices.len();
     let mut triangles: Vec<Option<([u32; 3], u32)>> =
         surface.triangles.iter().copied().zip(facets.iter().copied()).map(Some).collect();
@@ -218,10 +221,10 @@ fn thinned(surface: &Surface, facets: &[u32], kept: f64, random: &mut Random) ->
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut left = count;
     for (_, v) in order {
-        if (left as f64) <= kept * count as f64 {
+        if (left as f64) <= scan.kept * count as f64 {
             break;
         }
-        if let Some(into) = collapsible(surface, &triangles, &around, v) {
+        if let Some(into) = collapsible(surface, &triangles, &around, v, scan.needles) {
             for t in std::mem::take(&mut around[v as usize]) {
                 let Some((mut corners, facet)) = triangles[t] else { continue };
                 if corners.contains(&into) {
@@ -258,6 +261,7 @@ fn collapsible(
     triangles: &[Option<([u32; 3], u32)>],
     around: &[BTreeSet<usize>],
     v: u32,
+    needles: bool,
 ) -> Option<u32> {
     let at = |v: u32| surface.vertices[v as usize];
     let own: Vec<([u32; 3], u32)> = around[v as usize].iter().filter_map(|&t| triangles[t]).collect();
@@ -276,7 +280,7 @@ fn collapsible(
             let (before, after) = (area(*c), area(c.map(|c| if c == v { into } else { c })));
             after.length() > 0.0 && before.dot(after) > (1.0 - 1e-9) * before.length() * after.length() && {
                 let longest = (0..3).map(|k| at(c[k]).distance(at(into))).fold(0.0, f64::max);
-                after.length() > 0.15 * longest * longest
+                needles || after.length() > 0.15 * longest * longest
             }
         });
         moved && beside.intersection(&others(into)).count() == 2

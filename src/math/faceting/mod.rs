@@ -48,6 +48,8 @@ pub struct Face {
     pub name: Option<String>,
     /// The standard errors of the plane in the same frame, where the surface is a scan, whose noise is known.
     pub error: Option<PlaneError>,
+    /// Whether the corners on the facet bend by more than the noise of a scan: it may be several facets that the noise hides.
+    pub is_bent: bool,
 }
 
 /// A surface that represents a convex solid between planes. Lengths are in the surface's unit.
@@ -136,13 +138,14 @@ fn centred(surface: &Surface) -> (Surface, DVec3) {
 /// Returns the facets of a surface with its centre at the origin. `is_changed` is true where the surface is not
 /// convex but is read as this solid nevertheless.
 fn faceted(surface: Surface, centre: DVec3, solid: MatchingSolid, is_changed: bool) -> Faceted {
-    let MatchingSolid { found, polytope, deviation, tolerance, errors } = solid;
+    let MatchingSolid { found, polytope, deviation, tolerance, errors, are_bent } = solid;
     let names = names(&surface, &found);
     let face = |(facet, f): (usize, &Facet)| Face {
         plane: found.fits[f.source].plane,
         area: found.fits[f.source].area,
         name: names[f.source].clone(),
         error: errors.as_ref().map(|errors| errors[facet]),
+        is_bent: are_bent.get(facet).is_some_and(|is_bent| *is_bent),
     };
     let faces = polytope.facets().iter().enumerate().map(face).collect();
     let change = is_changed.then(|| Change::of(&surface, &polytope));

@@ -59,6 +59,8 @@ pub(super) struct MatchingSolid {
     pub tolerance: f64,
     /// The standard errors of the facets' planes, in the order of the facets; `None` where the surface is no scan.
     pub errors: Option<Vec<PlaneError>>,
+    /// Whether each facet of a scan may be several that noise hides; empty where the surface is no scan.
+    pub are_bent: Vec<bool>,
 }
 
 /// A surface with its centre at the origin, and the data that the search for its solid needs.
@@ -115,7 +117,7 @@ impl<'a> SolidSearch<'a> {
 
     /// Returns the solid of a scan with its triangles assigned to the facets that they lie on.
     fn of_scan(&self, scan: ScannedSolid) -> MatchingSolid {
-        let ScannedSolid { polytope, deviation, noise, errors } = scan;
+        let ScannedSolid { polytope, deviation, noise, errors, are_bent } = scan;
         let planes: Vec<Plane> = polytope.planes().collect();
         let middle = |t: usize| self.surface.corners(t).iter().sum::<DVec3>() / 3.0;
         let of = (0..self.surface.triangles.len())
@@ -136,6 +138,7 @@ impl<'a> SolidSearch<'a> {
             deviation,
             tolerance: SAME * noise,
             errors: Some(errors),
+            are_bent,
         }
     }
 
@@ -179,7 +182,7 @@ impl<'a> SolidSearch<'a> {
         let swelling = (polytope.volume() - self.surface.volume()).abs();
         let is_same = deviation <= same * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
         if is_same {
-            Ok(MatchingSolid { found, polytope, deviation, tolerance, errors: None })
+            Ok(MatchingSolid { found, polytope, deviation, tolerance, errors: None, are_bent: vec![] })
         } else {
             Err(found)
         }

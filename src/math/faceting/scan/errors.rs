@@ -1,12 +1,11 @@
 //! The standard errors of fitted planes: from the noise about each plane, its correlation, and rounding.
 
-use super::correlation::inflation;
 use super::members::Members;
 use super::patches::Corners;
 use super::points::PlaneEstimate;
 use super::rounding::{alike, steps};
 use crate::math::faceting::plane_error::PlaneError;
-use crate::math::{bounds, solved};
+use crate::math::solved;
 use glam::{DMat3, DVec3};
 
 /// The weight of the variance that all facets give for the direction of a facet beside that of its own corners, in corners.
@@ -58,25 +57,29 @@ fn by_direction(fits: &[PlaneEstimate], mean: f64) -> DMat3 {
         + DMat3::from_diagonal(DVec3::splat(mean))
 }
 
-/// Returns the standard errors of all planes.
-pub(super) fn errors(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> Vec<PlaneError> {
-    let inflation = inflation(corners, members, fits);
+/// Returns the standard errors of all planes. `inflation` is that of the noise's variance by its correlation.
+pub(super) fn errors(
+    corners: &Corners,
+    members: &Members,
+    fits: &[PlaneEstimate],
+    inflation: f64,
+) -> Vec<PlaneError> {
     let steps = steps(corners.at);
     let each = |((fit, variance), of): ((&PlaneEstimate, f64), &Vec<u32>)| {
-        let (low, high) = bounds(of.iter().map(|&v| corners.at[v as usize]));
+        let at: Vec<DVec3> = of.iter().map(|&v| corners.at[v as usize]).collect();
         let count = fit.count as f64;
         // What rounding added to the noise is left out.
         let own = fit.plane.normal.abs().dot(fit.plane.normal.abs() * steps * steps) / 12.0;
-        let before = (variance - own).max(0.0).sqrt();
-        let common = alike(steps, fit.plane.normal, high - low, before, count);
+        let alike = alike(steps, fit, &at, (variance - own).max(0.0).sqrt());
         // A fit follows correlated noise more, so that less of it is left.
         let left = (count - 3.0).max(1.0) / (count - 3.0 * inflation).max(MOST_FOLLOWED * count).max(1.0);
-        let one = (variance * inflation * left.max(1.0)).max(common * count);
+        let one = variance * inflation * left.max(1.0);
+        let tilt = |k: usize| (one / fit.moments[k] + alike.tilts[k]).sqrt();
         PlaneError {
             middle: fit.middle,
             axes: fit.axes,
-            distance: (one / count).sqrt(),
-            tilts: fit.moments.map(|moment| (one / moment).sqrt()),
+            distance: (one / count + alike.distance).sqrt(),
+            tilts: [tilt(0), tilt(1)],
         }
     };
     fits.iter().zip(variances(fits)).zip(&members.of).map(each).collect()

@@ -8,6 +8,7 @@
 //! 3. the solid counts if it reproduces the surface and what is left is noise (`verdict`);
 //! 4. the noise that is left gives the standard errors of the planes (`errors`, `correlation`, `rounding`).
 
+mod bend;
 mod correlation;
 mod errors;
 mod growth;
@@ -52,6 +53,8 @@ pub(super) struct ScannedSolid {
     pub noise: f64,
     /// The standard errors of the facets' planes, in the order of the facets.
     pub errors: Vec<PlaneError>,
+    /// Whether each facet may be several that noise hides.
+    pub are_bent: Vec<bool>,
 }
 
 /// Finds the solid that a scan represents; `None` where the surface is no scan of a convex solid with flat facets, or would need
@@ -87,8 +90,10 @@ impl Scan<'_> {
         verdict::is_reproduced(self.surface, self.corners, &fitted).then_some(())?;
         let freedom: usize = fitted.fits.iter().map(PlaneEstimate::freedom).sum();
         let squares: f64 = fitted.fits.iter().map(|fit| fit.squares).sum();
+        let inflation = correlation::inflation(self.corners, &fitted.members, &fitted.fits);
         Some(ScannedSolid {
-            errors: errors::errors(self.corners, &fitted.members, &fitted.fits),
+            errors: errors::errors(self.corners, &fitted.members, &fitted.fits, inflation),
+            are_bent: bend::are_bent(self.corners, &fitted, inflation),
             deviation: fitted.members.deviation,
             noise: (squares / freedom.max(1) as f64).sqrt(),
             polytope: fitted.polytope,

@@ -55,33 +55,44 @@ fn parts(corners: &Corners, of: &[u32], fit: &PlaneEstimate, inflation: f64) -> 
 
 /// Divides a facet across a direction at the best place.
 fn along(corners: &Corners, of: &[u32], fit: &PlaneEstimate, direction: DVec3) -> Option<Parts> {
-    if of.len() < 2 * LEAST {
-        return None;
-    }
-    let mut sorted: Vec<(f64, u32)> =
-        of.iter().map(|&v| (corners.at[v as usize].dot(direction), v)).collect();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let chunk = sorted.len().div_ceil(PLACES);
-    let sums: Vec<PointSums> = sorted
-        .chunks(chunk)
-        .map(|chunk| {
-            let mut sums = PointSums::about(fit.middle);
-            chunk.iter().for_each(|&(_, v)| sums.add(corners.at[v as usize]));
-            sums
-        })
-        .collect();
-    let joined = |parts: &[PointSums]| {
-        let sums = parts.iter().fold(PointSums::about(fit.middle), |sum, part| sum.with(part));
-        sums.fit(corners.inside).filter(|_| sums.count >= LEAST)
-    };
-    let divided = (1..sums.len()).filter_map(|place| {
-        let (one, other) = (joined(&sums[..place])?, joined(&sums[place..])?);
-        // Both planes lie over the other part: the edge between bends outward.
-        let is_convex = one.plane.distance(other.middle) < 0.0 && other.plane.distance(one.middle) < 0.0;
+    let parts = Chunks::along(corners, of.to_vec(), fit.middle, direction);
+    let divided = (1..parts.sums.len()).filter_map(|place| {
+        let (one, other) = (parts.fit(..place)?, parts.fit(place..)?);
         let rest = one.squares + other.squares;
         let variance = rest / (of.len() as f64 - 6.0);
         let excess = (fit.squares - rest) / variance;
-        is_convex.then_some(Parts { excess, variance, fits: [one, other] })
+        is_convex(&one, &other).then_some(Parts { excess, variance, fits: [one, other] })
     });
     divided.max_by(|a, b| a.excess.total_cmp(&b.excess))
+}
+
+/// Returns whether both planes lie over the other part, so that the edge between bends outward.
+fn is_convex(one: &PlaneEstimate, other: &PlaneEstimate) -> bool {
+    one.plane.distance(other.middle) < 0.0 && other.plane.distance(one.middle) < 0.0
+}
+
+/// Sums over corners by their place along a direction.
+struct Chunks<'a> {
+    corners: &'a Corners<'a>,
+    sums: Vec<PointSums>,
+}
+
+impl<'a> Chunks<'a> {
+    fn along(corners: &'a Corners<'a>, mut of: Vec<u32>, origin: DVec3, direction: DVec3) -> Self {
+        let place = |v: u32| corners.at[v as usize].dot(direction);
+        of.sort_by(|&a, &b| place(a).total_cmp(&place(b)).then(a.cmp(&b)));
+        let sums = of.chunks(of.len().div_ceil(PLACES).max(1)).map(|chunk| {
+            let mut sums = PointSums::about(origin);
+            chunk.iter().for_each(|&v| sums.add(corners.at[v as usize]));
+            sums
+        });
+        Self { corners, sums: sums.collect() }
+    }
+
+    /// Returns the plane of some chunks; `None` where they have too few corners.
+    fn fit(&self, of: impl std::slice::SliceIndex<[PointSums], Output = [PointSums]>) -> Option<PlaneEstimate> {
+        let (first, rest) = self.sums[of].split_first()?;
+        let sums = rest.iter().fold(*first, |sum, part| sum.with(part));
+        sums.fit(self.corners.inside).filter(|_| sums.count >= LEAST)
+    }
 }

@@ -1,9 +1,10 @@
 //! Whether a solid reproduces a scan, and what is left is noise.
 
 use super::Fitted;
+use super::bend::{FORMS, bend};
 use super::patches::Corners;
-use crate::math::{Plane, Polytope, Surface, outer};
-use glam::{DMat3, DVec3};
+use crate::math::{Plane, Polytope, Surface};
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// A scan has at least this many corners for each facet, besides the three that fix its plane, so that its noise is known.
@@ -43,30 +44,8 @@ pub(super) fn is_reproduced(surface: &Surface, corners: &Corners, fitted: &Fitte
 fn curved_part(corners: &Corners, fitted: &Fitted) -> f64 {
     let (mut explained, mut whole) = (0.0, 0.0);
     for (fit, of) in fitted.fits.iter().zip(&fitted.members.of) {
-        let count = of.len() as f64;
-        if of.len() < 12 {
-            continue;
-        }
-        let scale = fit.moments.map(|moment| (moment / count).sqrt());
-        let place = |&v: &u32| {
-            let at = corners.at[v as usize];
-            let from = at - fit.middle;
-            let [x, y] = [0, 1].map(|k| from.dot(fit.axes[k]) / scale[k]);
-            ([x, y], fit.plane.distance(at))
-        };
-        let places: Vec<([f64; 2], f64)> = of.iter().map(place).collect();
-        // The forms that are left of x², xy and y² when what a plane explains is taken out, up to the places' skewness.
-        let forms = |[x, y]: [f64; 2]| DVec3::new(x * x - 1.0, x * y, y * y - 1.0);
-        let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
-        for (at, distance) in &places {
-            let form = forms(*at);
-            matrix += outer(form, form);
-            right += form * *distance;
-        }
-        let explains = right.dot(matrix.inverse() * right);
-        let share = fit.squares / fit.freedom() as f64 * 3.0;
-        if explains.is_finite() {
-            explained += explains - share;
+        if let Some(fall) = bend(corners, of, fit) {
+            explained += fall - fit.squares / fit.freedom() as f64 * FORMS;
             whole += fit.squares;
         }
     }

@@ -1,0 +1,107 @@
+//! How far the corners of a facet bend off its plane by more than noise.
+
+use super::Fitted;
+use super::patches::Corners;
+use super::points::PlaneEstimate;
+use crate::math::faceting::deviation::outermost;
+use crate::math::{Plane, Polytope, outer};
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+/// The fewest corners that tell a bend from noise.
+const LEAST: usize = 12;
+
+/// The numbers of a surface of second order besides those of a plane.
+pub(super) const FORMS: f64 = 3.0;
+
+/// Facets are bent where surfaces of second order lower their squared distances, in variances of the noise, by more than noise
+/// explains: by three each, and by so many times the root of their number. For one facet that is the 99.99 % quantile of χ².
+const BENT: f64 = 18.0;
+
+/// Neighbours whose normals make a greater cosine (14°) are bent together: where the facets between them are hidden, each has a part.
+const NEARLY_ONE: f64 = 0.97;
+
+/// The part of a facet's corners, and the number besides, that may lie off it by more than noise.
+const OFF: f64 = 0.1;
+const OFF_ALWAYS: usize = 3;
+
+/// Returns by how much the sum of the squared distances falls where a surface of second order replaces a facet's plane; `None` for
+/// too few corners.
+pub(super) fn bend(corners: &Corners, of: &[u32], fit: &PlaneEstimate) -> Option<f64> {
+    if of.len() < LEAST {
+        return None;
+    }
+    let scale = fit.moments.map(|moment| (moment / of.len() as f64).sqrt());
+    // What is left of x², xy and y² when a plane's part is taken out, up to the places' skewness.
+    let forms = |[x, y]: [f64; 2]| DVec3::new(x * x - 1.0, x * y, y * y - 1.0);
+    let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
+    for &v in of {
+        let at = corners.at[v as usize];
+        let from = at - fit.middle;
+        let form = forms([0, 1].map(|k| from.dot(fit.axes[k]) / scale[k]));
+        matrix += outer(form, form);
+        right += form * fit.plane.distance(at);
+    }
+    let fall = right.dot(matrix.inverse() * right);
+    fall.is_finite().then_some(fall)
+}
+
+/// Returns for each facet of a solid whether its corners bend by more than noise, alone or together with those of neighbours that
+/// lean little from it, or lie off it, so that it may be several facets. `inflation` is that of the noise's variance by its correlation.
+pub(super) fn are_bent(corners: &Corners, fitted: &Fitted, inflation: f64) -> Vec<bool> {
+    let Fitted { polytope, members, fits } = fitted;
+    let fall = |(of, fit): (&Vec<u32>, &PlaneEstimate)| {
+        let fall = bend(corners, of, fit)?;
+        let freedom = of.len() as f64 - 3.0 - FORMS;
+        // The mean of the ratio of two variances (F) is above 1 where the second has few degrees of freedom.
+        let mean = freedom / (freedom - 2.0);
+        Some(fall * freedom / (fit.squares - fall).max(f64::MIN_POSITIVE) / mean / inflation)
+    };
+    let falls: Vec<Option<f64>> = members.of.par_iter().zip(fits).map(fall).collect();
+    let mut are_bent = are_off(corners, fitted);
+    for group in groups(polytope) {
+        let is_bent = |of: &[usize]| {
+            let known: Vec<f64> = of.iter().filter_map(|&f| falls[f]).collect();
+            let count = known.len() as f64;
+            known.iter().sum::<f64>() > FORMS * count + BENT * count.sqrt()
+        };
+        let together = is_bent(&group);
+        group.iter().for_each(|&f| are_bent[f] |= together || is_bent(&[f]));
+    }
+    are_bent
+}
+
+/// Returns for each facet whether many of the corners that lie nearest to it lie off it.
+fn are_off(corners: &Corners, fitted: &Fitted) -> Vec<bool> {
+    let planes: Vec<Plane> = fitted.polytope.planes().collect();
+    let mut off = vec![0; planes.len()];
+    for (at, _) in corners.at.iter().zip(&fitted.members.explained).filter(|(_, known)| !**known) {
+        off[outermost(&planes, *at).0] += 1;
+    }
+    off.iter().zip(&fitted.members.of).map(|(off, of)| *off > OFF_ALWAYS + (OFF * of.len() as f64) as usize).collect()
+}
+
+/// Returns the facets in groups of neighbours that lean little from each other.
+fn groups(solid: &Polytope) -> Vec<Vec<usize>> {
+    let facets = solid.facets();
+    let mut is_known = vec![false; facets.len()];
+    let mut groups = vec![];
+    for first in 0..facets.len() {
+        if std::mem::replace(&mut is_known[first], true) {
+            continue;
+        }
+        let (mut group, mut at) = (vec![first], 0);
+        while at < group.len() {
+            let facet = &facets[group[at]];
+            at += 1;
+            for n in facet.neighbours.iter().map(|&n| n as usize) {
+                let leans_little = facet.plane.normal.dot(facets[n].plane.normal) > NEARLY_ONE;
+                if leans_little && !std::mem::replace(&mut is_known[n], true) {
+                    group.push(n);
+                }
+            }
+        }
+        groups.push(group);
+    }
+    groups
+}
