@@ -308,6 +308,7 @@ fn facet_json(polytope: &Polytope, facet: &Facet, name: &str, error: Option<&Fac
     if let Some(error) = error {
         value["slope_error_deg"] = json!(error.slope_deg);
         value["azimuth_error_deg"] = json!(error.azimuth_deg);
+        value["may_be_several"] = json!(error.is_bent);
     }
     if facet.frosting > 0.0 {
         value["frosting"] = json!(facet.frosting);

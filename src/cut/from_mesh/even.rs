@@ -8,9 +8,10 @@
 use super::evening::Evening;
 use super::likeness::Found;
 use super::outline::LEAST_UPRIGHT;
-use crate::math::faceting::{Faceted, PlaneError, deviation};
+use crate::math::faceting::{Face, Faceted, PlaneError, deviation};
 use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// The most turns that are tried: except for girdle facets, no gem has more of any kind.
@@ -23,6 +24,13 @@ const LOOSE: f64 = 0.05;
 /// The factor by which the corners of a model may lie farther from the evened stone than from the one that was found, or the
 /// number of tolerances if that is more. Each facet of the found stone could follow the noise of its own few corners.
 const EVEN: f64 = 5.0;
+
+/// The factor by which the corners of a model may lie farther from the planes of the evened stone than from those that were found, root
+/// mean square for each degree of freedom, where these are enough to know.
+const AS_NEAR: f64 = 1.5;
+
+/// The least number of degrees of freedom, beyond three for each plane, from which the noise of a model's corners is known.
+const LEAST_FREEDOM: usize = 30;
 
 /// A surface with more corners than this for each facet is no model with corners only where facets meet. If the noise of its
 /// planes is not known, and their tolerance is above [`EXACT`], its planes stay as found.
@@ -130,6 +138,10 @@ pub(super) struct FacetParts {
     limit: Option<f64>,
     /// The standard errors of the planes of a scan.
     errors: Option<Vec<PlaneError>>,
+    /// The corners that lie on each plane within its tolerance.
+    on: Vec<Vec<u32>>,
+    /// The least distance from their planes that is taken for the noise of corners.
+    rounding: f64,
 }
 
 impl FacetParts {
@@ -142,7 +154,14 @@ impl FacetParts {
         let is_modelled = found.surface.vertices.len() <= MODELLED * found.faces.len()
             || found.tolerance <= EXACT * found.surface.size();
         let centre = |f: &Facet| solid.corners(f).sum::<DVec3>() / f.outline.len() as f64 - middle;
+        let on = |f: &Face| {
+            let lies = |v: &DVec3| f.plane.distance(*v).abs() <= found.tolerance;
+            (0..).zip(&found.surface.vertices).filter(|(_, v)| lies(v)).map(|(v, _)| v).collect()
+        };
+        let is_compared = found.surface.vertices.len() <= MODELLED * found.faces.len() && found.faces.len() <= MOST_FACETS;
         Self {
+            on: if is_compared { found.faces.par_iter().map(on).collect() } else { vec![] },
+            rounding: EXACT * found.surface.size(),
             planes: found.faces.iter().map(|f| about(&f.plane)).collect(),
             // The areas of the solid's facets, not of the triangles, as noise puts some triangles to a neighbouring facet.
             areas: solid.facets().iter().map(|f| solid.facet_area(f)).collect(),
@@ -196,13 +215,32 @@ impl FacetParts {
         upright.or_else(|| found.likely(start, images, is_fixed, |even| (even, 0)))
     }
 
+    /// Returns whether a model's corners lie nearly as close to the planes of an even stone as to those that were found, on average.
+    fn is_as_near(&self, even: &[Plane], images: &Images) -> bool {
+        let count: usize = self.on.iter().map(Vec::len).sum();
+        let numbers = 3 * self.planes.len();
+        if count < numbers + LEAST_FREEDOM {
+            return true;
+        }
+        let squares = |planes: &[Plane]| -> f64 {
+            let of = |(plane, on): (&Plane, &Vec<u32>)| -> f64 {
+                on.iter().map(|&v| plane.distance(self.corners[v as usize]).powi(2)).sum()
+            };
+            planes.iter().zip(&self.on).map(of).sum()
+        };
+        let noise = (squares(&self.planes) / (count - numbers) as f64).max(self.rounding.powi(2));
+        let fewer = numbers.saturating_sub(images.constraints());
+        squares(even) / (count - fewer) as f64 <= AS_NEAR * AS_NEAR * noise
+    }
+
     /// Returns the even stone of a model, where the model's corners lie nearly as close to it as to the stone that was found.
     fn near(&self, start: &Even, images: &Images) -> Option<Even> {
         let limit = self.limit?;
         let fits = |even: &Even| {
             let back: Vec<Plane> =
                 even.planes.iter().map(|p| p.placed(&Pose::turned(even.turn.inverse()))).collect();
-            Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &self.corners) <= limit)
+            self.is_as_near(&back, images)
+                && Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &self.corners) <= limit)
         };
         let even = averaged(start, images)?;
         // Where girdle facets lie at different heights, putting them upright shifts them by different amounts, so they

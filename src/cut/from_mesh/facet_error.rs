@@ -14,6 +14,9 @@ pub struct FacetError {
     pub slope_deg: f64,
     /// The standard error of the azimuth about the axis, degrees; `None` for the table and for level facets.
     pub azimuth_deg: Option<f64>,
+    /// Whether the corners on the facet bend by more than noise, so that it may be several facets that the noise hides. Its standard
+    /// errors are then those of the one plane only.
+    pub is_bent: bool,
 }
 
 impl FacetError {
@@ -28,6 +31,7 @@ impl FacetError {
         Self {
             facet: facet.to_owned(),
             slope_deg: error.slope(plane, DVec3::Z).hypot(axis).to_degrees(),
+            is_bent: false,
             azimuth_deg: error.azimuth(plane, DVec3::Z).filter(|_| leans).map(f64::to_degrees),
         }
     }

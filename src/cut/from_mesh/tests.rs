@@ -209,7 +209,7 @@ fn symmetry_counts_the_same_however_a_stone_lies() {
     assert_eq!(upright.facets().len(), planes.len());
     let counted = |turn: DQuat| {
         let polytope = upright.reframed(&Pose::turned(turn));
-        let face = |plane| Face { plane, area: 1.0, name: None, error: None };
+        let face = |plane| Face { plane, area: 1.0, name: None, error: None, is_bent: false };
         let found = Faceted {
             surface: Surface::new(polytope.vertices().to_vec(), vec![]),
             centre: DVec3::ZERO,

@@ -145,6 +145,23 @@ fn known_to(errors: &[FacetError]) -> Option<String> {
     ))
 }
 
+/// Returns the warning about facets of a scan that may be several; `None` where there are none.
+fn bent(errors: &[FacetError]) -> Option<String> {
+    let bent: Vec<&str> = errors.iter().filter(|error| error.is_bent).map(|error| error.facet.as_str()).collect();
+    let first = bent.first()?;
+    let (which, they) = match bent.len() {
+        1 => (format!("the facet '{first}' bends"), "it may be several facets that the noise hides"),
+        count => (
+            format!("{count} of the facets bend ('{first}' is the first)"),
+            "each may be several facets that the noise hides",
+        ),
+    };
+    Some(format!(
+        "{which} by more than the scan's noise: {they}, and its angles may be off by more than its standard errors; a scan with less \
+         noise or more corners would tell"
+    ))
+}
+
 /// Returns the note on a stone that was given a symmetry; `None` where it was left as found.
 fn evened(symmetry: &Symmetry) -> Option<String> {
     const FOLDS: [&str; 11] = [
@@ -209,6 +226,7 @@ impl File {
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
         remarks.notes.extend(known_to(&errors));
+        remarks.warnings.extend(bent(&errors));
         let evened = evened(&made.evened);
         let is_evened = evened.is_some();
         remarks.notes.extend(evened);

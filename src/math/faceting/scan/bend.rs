@@ -3,6 +3,7 @@
 use super::Fitted;
 use super::patches::Corners;
 use super::points::PlaneEstimate;
+use super::rounding::bending;
 use crate::math::faceting::deviation::outermost;
 use crate::math::{Plane, Polytope, outer};
 use glam::{DMat3, DVec3};
@@ -15,8 +16,10 @@ const LEAST: usize = 12;
 pub(super) const FORMS: f64 = 3.0;
 
 /// Facets are bent where surfaces of second order lower their squared distances, in variances of the noise, by more than noise
-/// explains: by three each, and by so many times the root of their number. For one facet that is the 99.99 % quantile of χ².
-const BENT: f64 = 18.0;
+/// explains: by three each, by so many times the root of their number (five standard deviations of χ²), and by so many besides. For one facet
+/// that is the 99.99 % quantile.
+const BENT: f64 = 12.0;
+const BENT_ONE: f64 = 6.0;
 
 /// Neighbours whose normals make a greater cosine (14°) are bent together: where the facets between them are hidden, each has a part.
 const NEARLY_ONE: f64 = 0.97;
@@ -51,7 +54,7 @@ pub(super) fn bend(corners: &Corners, of: &[u32], fit: &PlaneEstimate) -> Option
 pub(super) fn are_bent(corners: &Corners, fitted: &Fitted, inflation: f64) -> Vec<bool> {
     let Fitted { polytope, members, fits } = fitted;
     let fall = |(of, fit): (&Vec<u32>, &PlaneEstimate)| {
-        let fall = bend(corners, of, fit)?;
+        let fall = (bend(corners, of, fit)? - bending(corners.steps, fit)).max(0.0);
         let freedom = of.len() as f64 - 3.0 - FORMS;
         // The mean of the ratio of two variances (F) is above 1 where the second has few degrees of freedom.
         let mean = freedom / (freedom - 2.0);
@@ -63,7 +66,7 @@ pub(super) fn are_bent(corners: &Corners, fitted: &Fitted, inflation: f64) -> Ve
         let is_bent = |of: &[usize]| {
             let known: Vec<f64> = of.iter().filter_map(|&f| falls[f]).collect();
             let count = known.len() as f64;
-            known.iter().sum::<f64>() > FORMS * count + BENT * count.sqrt()
+            known.iter().sum::<f64>() > FORMS * count + BENT * count.sqrt() + BENT_ONE
         };
         let together = is_bent(&group);
         group.iter().for_each(|&f| are_bent[f] |= together || is_bent(&[f]));

@@ -3,7 +3,7 @@
 use super::members::Members;
 use super::patches::Corners;
 use super::points::PlaneEstimate;
-use super::rounding::{alike, steps};
+use super::rounding;
 use crate::math::faceting::plane_error::PlaneError;
 use crate::math::solved;
 use glam::{DMat3, DVec3};
@@ -64,13 +64,12 @@ pub(super) fn errors(
     fits: &[PlaneEstimate],
     inflation: f64,
 ) -> Vec<PlaneError> {
-    let steps = steps(corners.at);
     let each = |((fit, variance), of): ((&PlaneEstimate, f64), &Vec<u32>)| {
         let at: Vec<DVec3> = of.iter().map(|&v| corners.at[v as usize]).collect();
         let count = fit.count as f64;
         // What rounding added to the noise is left out.
-        let own = fit.plane.normal.abs().dot(fit.plane.normal.abs() * steps * steps) / 12.0;
-        let alike = alike(steps, fit, &at, (variance - own).max(0.0).sqrt());
+        let own = rounding::variance(corners.steps, fit.plane.normal);
+        let alike = rounding::alike(corners.steps, fit, &at, (variance - own).max(0.0).sqrt());
         // A fit follows correlated noise more, so that less of it is left.
         let left = (count - 3.0).max(1.0) / (count - 3.0 * inflation).max(MOST_FOLLOWED * count).max(1.0);
         let one = variance * inflation * left.max(1.0);

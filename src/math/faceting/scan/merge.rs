@@ -1,6 +1,8 @@
 //! Joins facets that one plane fits as well as two.
 
+use super::patches::Corners;
 use super::points::{PlaneEstimate, PointSums};
+use super::rounding::bending;
 use crate::math::Polytope;
 
 /// Two facets are one where the sum of squared distances from a common plane exceeds that from two planes by less than
@@ -18,7 +20,7 @@ pub(super) fn join(
     sums: &mut [PointSums],
     fits: &mut [Option<PlaneEstimate>],
     variances: &[f64],
-    inside: glam::DVec3,
+    corners: &Corners,
 ) -> usize {
     let mut pairs = vec![];
     for (i, facet) in solid.facets().iter().enumerate() {
@@ -28,10 +30,10 @@ pub(super) fn join(
             if a.plane.normal.dot(b.plane.normal) < FACING {
                 continue;
             }
-            let Some(both) = sums[i].with(&sums[j]).fit(inside) else { continue };
+            let Some(both) = sums[i].with(&sums[j]).fit(corners.inside) else { continue };
             let count = both.count as f64;
             let variance = (variances[i] * a.count as f64 + variances[j] * b.count as f64) / count;
-            let excess = (both.squares - a.squares - b.squares) / variance - 3.0 * count.ln();
+            let excess = (both.squares - a.squares - b.squares - bending(corners.steps, &both)) / variance - 3.0 * count.ln();
             if excess < EXCESS {
                 pairs.push((excess, i, j));
             }
@@ -46,7 +48,7 @@ pub(super) fn join(
         }
         (touched[i], touched[j]) = (true, true);
         sums[i] = sums[i].with(&sums[j]);
-        (fits[i], fits[j]) = (sums[i].fit(inside), None);
+        (fits[i], fits[j]) = (sums[i].fit(corners.inside), None);
         joined += 1;
     }
     joined

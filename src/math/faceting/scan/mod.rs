@@ -170,7 +170,7 @@ impl Scan<'_> {
         let mut known = errors::variances(&known).into_iter();
         let variances: Vec<f64> =
             fits.iter().map(|fit| inflation * fit.and_then(|_| known.next()).unwrap_or_default()).collect();
-        let joined = merge::join(polytope, &mut sums, &mut fits, &variances, inside);
+        let joined = merge::join(polytope, &mut sums, &mut fits, &variances, self.corners);
         (fits, joined)
     }
 }

@@ -1,6 +1,7 @@
 //! Patches of neighbouring corners: what they show of the noise, and the planes that begin facets.
 
 use super::points::{PlaneEstimate, PointSums};
+use super::rounding::steps;
 use crate::math::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -100,6 +101,8 @@ pub(super) struct Corners<'a> {
     pub inside: DVec3,
     /// The usual distance between neighbouring corners.
     pub spacing: f64,
+    /// The steps to which the coordinates were rounded, along each axis; 0 where none is found.
+    pub steps: DVec3,
 }
 
 impl<'a> Corners<'a> {
@@ -112,6 +115,7 @@ impl<'a> Corners<'a> {
             inside: surface.vertices.iter().sum::<DVec3>() / count,
             // Corners in triangles of equal sides share the area evenly.
             spacing: (surface.area() / count * 2.0 / 3.0_f64.sqrt()).sqrt(),
+            steps: steps(&surface.vertices),
         }
     }
 

@@ -26,6 +26,19 @@ fn step(mut all: Vec<f64>) -> f64 {
     if least.is_finite() && digits < MULTIPLE * least && gaps().all(near) { least } else { 0.0 }
 }
 
+/// The part of the variance of rounding with which rows that are rounded alike may bend a facet.
+const BENDING: f64 = 0.25;
+
+/// Returns the variance that rounding to `steps` adds to the distances from a facet.
+pub(super) fn variance(steps: DVec3, normal: DVec3) -> f64 {
+    (normal * steps).length_squared() / 12.0
+}
+
+/// Returns by how much a bend that rounding alone makes may lower the sum of squared distances from a plane.
+pub(super) fn bending(steps: DVec3, fit: &PlaneEstimate) -> f64 {
+    BENDING * fit.count as f64 * variance(steps, fit.plane.normal)
+}
+
 /// Corners of a facet are rounded alike where this many times as many as an even spread gives have the same coordinate: rows of
 /// corners along a level edge.
 const CROWDED: f64 = 2.0;

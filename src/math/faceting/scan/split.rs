@@ -4,6 +4,7 @@ use super::growth::NEAR;
 use super::members::Members;
 use super::patches::Corners;
 use super::points::{PlaneEstimate, PointSums};
+use super::rounding::bending;
 use crate::math::Plane;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -33,7 +34,7 @@ pub(super) fn split(
 
 /// The two parts of a facet that is divided.
 struct Parts {
-    /// The fall of the squared distances, in variances of the noise.
+    /// The fall of the squared distances besides what rounding explains, in variances of the noise.
     excess: f64,
     /// The variance of the noise.
     variance: f64,
@@ -60,7 +61,7 @@ fn along(corners: &Corners, of: &[u32], fit: &PlaneEstimate, direction: DVec3) -
         let (one, other) = (parts.fit(..place)?, parts.fit(place..)?);
         let rest = one.squares + other.squares;
         let variance = rest / (of.len() as f64 - 6.0);
-        let excess = (fit.squares - rest) / variance;
+        let excess = (fit.squares - rest - bending(corners.steps, fit)) / variance;
         is_convex(&one, &other).then_some(Parts { excess, variance, fits: [one, other] })
     });
     divided.max_by(|a, b| a.excess.total_cmp(&b.excess))
