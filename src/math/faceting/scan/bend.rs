@@ -28,9 +28,21 @@ const NEARLY_ONE: f64 = 0.97;
 const OFF: f64 = 0.1;
 const OFF_ALWAYS: usize = 3;
 
-/// Returns by how much the sum of the squared distances falls where a surface of second order replaces a facet's plane; `None` for
-/// too few corners.
-pub(super) fn bend(corners: &Corners, of: &[u32], fit: &PlaneEstimate) -> Option<f64> {
+/// Neighbours that lean little from each other are bent together where their corners bend outward by more than this many standard
+/// deviations of the noise, on average: hidden facets bend outward only, and noise as much inward.
+const OUTWARD: f64 = 6.0;
+
+/// A surface of second order that replaces a facet's plane.
+pub(super) struct Bend {
+    /// By how much the sum of the squared distances falls.
+    pub fall: f64,
+    /// The outward bend that is the same in all directions, with the standard deviation of one corner's noise; positive where the
+    /// middle of the facet lies outside of the plane.
+    outward: f64,
+}
+
+/// Returns the surface of second order that fits a facet's corners best; `None` for too few corners.
+pub(super) fn bend(corners: &Corners, of: &[u32], fit: &PlaneEstimate) -> Option<Bend> {
     if of.len() < LEAST {
         return None;
     }
@@ -46,27 +58,36 @@ pub(super) fn bend(corners: &Corners, of: &[u32], fit: &PlaneEstimate) -> Option
         right += form * fit.plane.distance(at);
     }
     let fall = right.dot(matrix.inverse() * right);
-    fall.is_finite().then_some(fall)
+    let round = DVec3::new(1.0, 0.0, 1.0);
+    let outward = -round.dot(right) / round.dot(matrix * round).sqrt();
+    (fall.is_finite() && outward.is_finite()).then_some(Bend { fall, outward })
 }
 
 /// Returns for each facet of a solid whether its corners bend by more than noise, alone or together with those of neighbours that
 /// lean little from it, or lie off it, so that it may be several facets. `inflation` is that of the noise's variance by its correlation.
 pub(super) fn are_bent(corners: &Corners, fitted: &Fitted, inflation: f64) -> Vec<bool> {
     let Fitted { polytope, members, fits } = fitted;
-    let fall = |(of, fit): (&Vec<u32>, &PlaneEstimate)| {
-        let fall = (bend(corners, of, fit)? - bending(corners.steps, fit)).max(0.0);
+    let bend_of = |(of, fit): (&Vec<u32>, &PlaneEstimate)| {
+        let bend = bend(corners, of, fit)?;
+        let rounding = bending(corners.steps, fit);
+        let fall = (bend.fall - rounding).max(0.0);
         let freedom = of.len() as f64 - 3.0 - FORMS;
         // The mean of the ratio of two variances (F) is above 1 where the second has few degrees of freedom.
         let mean = freedom / (freedom - 2.0);
-        Some(fall * freedom / (fit.squares - fall).max(f64::MIN_POSITIVE) / mean / inflation)
+        let variance = inflation * (fit.squares - bend.fall).max(f64::MIN_POSITIVE) / freedom;
+        let outward = bend.outward / variance.sqrt().hypot(rounding.sqrt());
+        Some(Bend { fall: fall / variance / mean, outward })
     };
-    let falls: Vec<Option<f64>> = members.of.par_iter().zip(fits).map(fall).collect();
+    let bends: Vec<Option<Bend>> = members.of.par_iter().zip(fits).map(bend_of).collect();
     let mut are_bent = are_off(corners, fitted);
     for group in groups(polytope) {
         let is_bent = |of: &[usize]| {
-            let known: Vec<f64> = of.iter().filter_map(|&f| falls[f]).collect();
+            let known: Vec<&Bend> = of.iter().filter_map(|&f| bends[f].as_ref()).collect();
             let count = known.len() as f64;
-            known.iter().sum::<f64>() > FORMS * count + BENT * count.sqrt() + BENT_ONE
+            let [fall, outward] =
+                known.iter().fold([0.0, 0.0], |[fall, outward], b| [fall + b.fall, outward + b.outward]);
+            fall > FORMS * count + BENT * count.sqrt() + BENT_ONE
+                || (count > 1.0 && outward > OUTWARD * count.sqrt())
         };
         let together = is_bent(&group);
         group.iter().for_each(|&f| are_bent[f] |= together || is_bent(&[f]));

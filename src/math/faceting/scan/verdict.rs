@@ -1,7 +1,7 @@
 //! Whether a solid reproduces a scan, and what is left is noise.
 
 use super::Fitted;
-use super::bend::{FORMS, bend};
+use super::bend::{Bend, FORMS, bend};
 use super::patches::Corners;
 use crate::math::{Plane, Polytope, Surface};
 use glam::DVec3;
@@ -44,7 +44,7 @@ pub(super) fn is_reproduced(surface: &Surface, corners: &Corners, fitted: &Fitte
 fn curved_part(corners: &Corners, fitted: &Fitted) -> f64 {
     let (mut explained, mut whole) = (0.0, 0.0);
     for (fit, of) in fitted.fits.iter().zip(&fitted.members.of) {
-        if let Some(fall) = bend(corners, of, fit) {
+        if let Some(Bend { fall, .. }) = bend(corners, of, fit) {
             explained += fall - fit.squares / fit.freedom() as f64 * FORMS;
             whole += fit.squares;
         }
