@@ -23,6 +23,10 @@ const SLOPE_DEG: f64 = 0.15;
 const AZIMUTH_DEG: f64 = 0.4;
 
 fn even() -> Vec<Plane> {
+    brilliant(16)
+}
+
+fn brilliant(girdle_facets: u32) -> Vec<Plane> {
     let cut = RoundBrilliant {
         table: 56.0,
         crown: Crown::Angle(34.5),
@@ -30,7 +34,7 @@ fn even() -> Vec<Plane> {
         star_length: 50.0,
         lower_half: LowerHalf::Radial(77.0),
         girdle_thickness: 3.0,
-        girdle_facets: 16,
+        girdle_facets,
         culet: 0.0,
     };
     cut.facets().unwrap().into_iter().map(|(_, plane)| plane).collect()
@@ -69,6 +73,7 @@ fn kinds(triangles: u32, noise_um: f64, seed: u64) -> Vec<(&'static str, Scan)> 
         ("plain", plain),
         ("more noise along z", Scan { noise_um: noise_um * DVec3::new(0.5, 1.0, 2.0), ..plain }),
         ("fewer corners", Scan { kept: 0.5, ..plain }),
+        ("needles, rounded to 10 um", Scan { kept: 0.5, needles: true, step_um: 10.0, ..plain }),
         ("rounded to 1 um", Scan { step_um: 1.0, ..plain }),
         ("rounded to 10 um", Scan { step_um: 10.0, ..plain }),
         ("correlated noise", Scan { blurs: 1, ..plain }),
@@ -110,17 +115,15 @@ impl Tally {
 fn every_facet_is_found_and_known_to_its_standard_errors_in_scans_of_all_kinds() {
     let stone = uneven();
     let mut all = Tally::default();
-    for seed in 1..=2 {
-        for (name, scan) in kinds(24_000, 0.8, seed) {
-            let found = found(&scan, &stone);
-            let mut tally = Tally::default();
-            tally.add(&found, &scan.planes(&stone), name);
-            let volume = Polytope::from_planes(&scan.planes(&stone)).unwrap().volume();
-            assert!((found.polytope.volume() / volume - 1.0).abs() < 1e-3, "{name}");
-            (0..3).for_each(|k| all.inside[k] += tally.inside[k]);
-            all.count += tally.count;
-            assert!(tally.coverage().iter().all(|c| *c > 80.0), "{name}: {:?}", tally.coverage());
-        }
+    for (name, scan) in kinds(16_000, 0.8, 1) {
+        let found = found(&scan, &stone);
+        let mut tally = Tally::default();
+        tally.add(&found, &scan.planes(&stone), name);
+        let volume = Polytope::from_planes(&scan.planes(&stone)).unwrap().volume();
+        assert!((found.polytope.volume() / volume - 1.0).abs() < 1e-3, "{name}");
+        (0..3).for_each(|k| all.inside[k] += tally.inside[k]);
+        all.count += tally.count;
+        assert!(tally.coverage().iter().all(|c| *c > 85.0), "{name}: {:?}", tally.coverage());
     }
     assert!(all.coverage().iter().all(|c| (93.0..97.5).contains(c)), "{:?} of {}", all.coverage(), all.count);
 }
@@ -128,9 +131,10 @@ fn every_facet_is_found_and_known_to_its_standard_errors_in_scans_of_all_kinds()
 #[test]
 fn standard_errors_cover_at_any_noise_and_number_of_triangles() {
     let stone = uneven();
-    for (triangles, noise_um) in [(2_000, 0.3), (2_000, 2.0), (8_000, 0.5), (8_000, 2.0), (30_000, 2.0)] {
+    let cases = [(2_000, 0.3), (2_000, 5.0), (8_000, 0.5), (8_000, 3.0), (30_000, 2.0), (60_000, 5.0)];
+    for (triangles, noise_um) in cases {
         let mut tally = Tally::default();
-        let seeds = if triangles > 10_000 { 1..=2 } else { 1..=6 };
+        let seeds = if triangles > 10_000 { 1..=1 } else { 1..=4 };
         for seed in seeds {
             let scan = Scan::meshed(triangles, noise_um, seed);
             tally.add(&found(&scan, &stone), &scan.planes(&stone), &format!("{triangles} at {noise_um} um"));
@@ -138,15 +142,63 @@ fn standard_errors_cover_at_any_noise_and_number_of_triangles() {
         let least = if triangles > 10_000 { 90.0 } else { 92.0 };
         assert!(
             tally.coverage().iter().all(|c| (least..98.5).contains(c)),
-            "{triangles}: {:?}",
+            "{triangles} at {noise_um} um: {:?}",
             tally.coverage()
         );
     }
 }
 
 #[test]
+fn rounding_to_ten_micrometres_is_within_the_standard_errors_of_a_regular_stone() {
+    let mut tally = Tally::default();
+    for (triangles, noise_um) in [(8_000, 0.0), (8_000, 0.3), (24_000, 0.8), (8_000, 2.0)] {
+        let scan = Scan { step_um: 10.0, ..Scan::meshed(triangles, noise_um, 1) };
+        tally.add(&found(&scan, &even()), &scan.planes(&even()), &format!("{triangles} at {noise_um} um"));
+    }
+    // The facets of an even stone are rounded alike, eight at a time, so the part scatters by three percent.
+    assert!(tally.coverage().iter().all(|c| *c > 85.0), "{:?}", tally.coverage());
+    let all: usize = tally.inside.iter().sum();
+    assert!(all as f64 > 0.92 * 3.0 * tally.count as f64, "{:?}", tally.coverage());
+}
+
+#[test]
+fn facets_that_may_be_several_are_named_and_those_of_a_complete_stone_are_not() {
+    let bent = |scan: Scan, stone: &[Plane]| {
+        let found = found(&scan, stone);
+        let count = found.faces.iter().filter(|face| face.is_bent).count();
+        (found.faces.len(), count)
+    };
+    let girdle = brilliant(96);
+    assert_eq!(bent(Scan::meshed(30_000, 0.3, 1), &girdle), (girdle.len(), 0));
+    for noise_um in [1.0, 2.0, 3.0] {
+        let (facets, bent) = bent(Scan::meshed(30_000, noise_um, 2), &girdle);
+        assert!(facets < girdle.len() && bent > 30, "{noise_um} um: {bent} of {facets}");
+    }
+    for (triangles, noise_um) in [(2_000, 5.0), (8_000, 3.0), (30_000, 5.0)] {
+        assert_eq!(bent(Scan::meshed(triangles, noise_um, 2), &uneven()), (uneven().len(), 0));
+    }
+    let scan = Scan::meshed(30_000, 2.0, 2);
+    let made = stone_of(&found(&scan, &girdle), Evening::AsFound);
+    assert!(made.errors.iter().filter(|error| error.is_bent).count() > 30);
+}
+
+#[test]
+fn a_scan_with_few_corners_is_evened_only_where_its_stone_is_even() {
+    for noise_um in [0.2, 0.8] {
+        let few = Scan { kept: 0.3, ..Scan::meshed(2_000, noise_um, 2) };
+        let needles = Scan { kept: 0.5, needles: true, ..Scan::meshed(2_000, noise_um, 2) };
+        for scan in [few, needles] {
+            let made = |stone: &[Plane]| stone_of(&found(&scan, stone), Evening::WhereLikely).evened;
+            let (uneven, even) = (made(&uneven()), made(&even()));
+            assert_eq!((uneven.turns, uneven.mirror), (1, None), "{scan:?}");
+            assert!(even.turns == 8 && even.mirror.is_some(), "{scan:?}");
+        }
+    }
+}
+
+#[test]
 fn an_uneven_stone_stays_as_found_and_an_even_one_is_evened_unless_it_is_to_stay() {
-    for (triangles, noise_um) in [(2_000, 0.5), (2_000, 2.0), (30_000, 0.8), (30_000, 1.2)] {
+    for (triangles, noise_um) in [(2_000, 0.5), (2_000, 2.0), (20_000, 1.0)] {
         let scan = Scan::meshed(triangles, noise_um, 3);
         let stone = uneven();
         let uneven = stone_of(&found(&scan, &stone), Evening::WhereLikely);
@@ -167,7 +219,7 @@ fn an_uneven_stone_stays_as_found_and_an_even_one_is_evened_unless_it_is_to_stay
 fn deviations_of_facets_are_those_of_the_stone_within_their_errors() {
     let stone = uneven();
     let truth = facet_deviations(&Stone::new(&named(&stone)).unwrap()).unwrap();
-    let scan = Scan::meshed(30_000, 1.0, 2);
+    let scan = Scan::meshed(20_000, 1.0, 2);
     let made = stone_of(&found(&scan, &stone), Evening::WhereLikely);
     assert_eq!(made.errors.len(), made.facets.len());
     let known = facet_deviations(&Stone::new(&made.facets).unwrap()).unwrap();
