@@ -8,7 +8,7 @@
 use super::evening::Evening;
 use super::likeness::Found;
 use super::outline::LEAST_UPRIGHT;
-use crate::math::faceting::{Face, Faceted, PlaneError, deviation};
+use crate::math::faceting::{Face, Faceted, MODELLED, PlaneError, deviation};
 use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -31,10 +31,6 @@ const AS_NEAR: f64 = 1.5;
 
 /// The least number of degrees of freedom, beyond three for each plane, from which the noise of a model's corners is known.
 const LEAST_FREEDOM: usize = 30;
-
-/// A surface with more corners than this for each facet is no model with corners only where facets meet. If the noise of its
-/// planes is not known, and their tolerance is above [`EXACT`], its planes stay as found.
-const MODELLED: usize = 12;
 
 /// The tolerance of planes whose corners deviate by no more than rounding, as a part of the size.
 const EXACT: f64 = 2e-6;
@@ -134,7 +130,8 @@ pub(super) struct FacetParts {
     middles: Vec<DVec3>,
     /// The corners of the surface.
     corners: Vec<DVec3>,
-    /// The greatest distance that the corners may have from an evened stone; `None` where the planes stay as found.
+    /// The greatest distance that the corners may have from an evened stone. `None` where the planes stay as found: those of a surface
+    /// with too many corners for a model ([`MODELLED`]), whose noise is not known and whose tolerance is above [`EXACT`].
     limit: Option<f64>,
     /// The standard errors of the planes of a scan.
     errors: Option<Vec<PlaneError>>,
@@ -158,7 +155,8 @@ impl FacetParts {
             let lies = |v: &DVec3| f.plane.distance(*v).abs() <= found.tolerance;
             (0..).zip(&found.surface.vertices).filter(|(_, v)| lies(v)).map(|(v, _)| v).collect()
         };
-        let is_compared = found.surface.vertices.len() <= MODELLED * found.faces.len() && found.faces.len() <= MOST_FACETS;
+        let is_compared =
+            found.surface.vertices.len() <= MODELLED * found.faces.len() && found.faces.len() <= MOST_FACETS;
         Self {
             on: if is_compared { found.faces.par_iter().map(on).collect() } else { vec![] },
             rounding: EXACT * found.surface.size(),

@@ -104,7 +104,8 @@ fn errors(
     let axis = table.and_then(placed);
     let of = |(name, plane): &(String, Plane)| {
         let place = posed.iter().position(|other| other == plane)?;
-        let error = FacetError::of(name, plane, &placed(place)?, axis.as_ref().filter(|_| table != Some(place)));
+        let error =
+            FacetError::of(name, plane, &placed(place)?, axis.as_ref().filter(|_| table != Some(place)));
         Some(FacetError { is_bent: found.faces[place].is_bent, ..error })
     };
     facets.iter().filter_map(of).collect()

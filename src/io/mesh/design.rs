@@ -147,7 +147,8 @@ fn known_to(errors: &[FacetError]) -> Option<String> {
 
 /// Returns the warning about facets of a scan that may be several; `None` where there are none.
 fn bent(errors: &[FacetError]) -> Option<String> {
-    let bent: Vec<&str> = errors.iter().filter(|error| error.is_bent).map(|error| error.facet.as_str()).collect();
+    let bent: Vec<&str> =
+        errors.iter().filter(|error| error.is_bent).map(|error| error.facet.as_str()).collect();
     let first = bent.first()?;
     let (which, they) = match bent.len() {
         1 => (format!("the facet '{first}' bends"), "it may be several facets that the noise hides"),

@@ -37,6 +37,9 @@ use search::{MOST_FACETS, MatchingSolid, SolidSearch};
 /// A region and a group of the file are the same facet if they share this part of the area of each.
 const ONE: f64 = 0.99;
 
+/// A surface with more corners than this for each facet is no model with corners only where facets meet.
+pub const MODELLED: usize = 12;
+
 /// A facet that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {

@@ -7,7 +7,7 @@ use super::hull::Hull;
 use super::plane_error::PlaneError;
 use super::regions::{NOWHERE, Regions, is_sliver, regions};
 use super::scan::{ScannedSolid, scanned};
-use super::settle;
+use super::{MODELLED, is_noisy, settle};
 use crate::math::edges::Edges;
 use crate::math::{Facet, Plane, Polytope, Surface};
 use glam::DVec3;
@@ -107,7 +107,9 @@ impl<'a> SolidSearch<'a> {
                 best = next;
             }
         }
-        Some(best)
+        // Facets of a noisy surface with many corners are those of a scan, or noise makes and hides some.
+        let is_modelled = self.surface.vertices.len() <= MODELLED * best.polytope.facets().len();
+        (is_modelled || !is_noisy(self.surface)).then_some(best)
     }
 
     /// Returns the hull, where the surface is meant to be its hull.

@@ -102,7 +102,10 @@ fn are_off(corners: &Corners, fitted: &Fitted) -> Vec<bool> {
     for (at, _) in corners.at.iter().zip(&fitted.members.explained).filter(|(_, known)| !**known) {
         off[outermost(&planes, *at).0] += 1;
     }
-    off.iter().zip(&fitted.members.of).map(|(off, of)| *off > OFF_ALWAYS + (OFF * of.len() as f64) as usize).collect()
+    off.iter()
+        .zip(&fitted.members.of)
+        .map(|(off, of)| *off > OFF_ALWAYS + (OFF * of.len() as f64) as usize)
+        .collect()
 }
 
 /// Returns the facets in groups of neighbours that lean little from each other.

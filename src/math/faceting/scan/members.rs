@@ -68,7 +68,8 @@ impl Members {
         let is_near = |facet: &Outlined, v: DVec3| facet.plane.distance(v).abs() <= OUTLIER * facet.noise;
         let of = if are_shared {
             let middle = |t: &[u32; 3]| t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
-            let on: Vec<usize> = corners.triangles.par_iter().map(|t| outermost(&planes, middle(t)).0).collect();
+            let on: Vec<usize> =
+                corners.triangles.par_iter().map(|t| outermost(&planes, middle(t)).0).collect();
             let mut of = vec![vec![]; facets.len()];
             for (&f, t) in on.iter().zip(corners.triangles) {
                 of[f].extend(t.iter().filter(|&&v| is_near(&facets[f], corners.at[v as usize])));
@@ -191,6 +192,7 @@ pub(super) fn noises(corners: &Corners, members: &Members, fits: &[PlaneEstimate
     let freedom = |sizes: &Vec<f64>| (sizes.len() as f64 / (sizes.len() as f64 - 3.0).max(0.5)).sqrt();
     let scaled = each.iter().filter(|sizes| sizes.len() > 3);
     let common = median(scaled.flat_map(|sizes| sizes.iter().map(|d| d * freedom(sizes))).collect()) / MEDIAN;
-    let own = |sizes: Vec<f64>| if sizes.len() < MANY { common } else { (median(sizes) / MEDIAN).max(common) };
+    let own =
+        |sizes: Vec<f64>| if sizes.len() < MANY { common } else { (median(sizes) / MEDIAN).max(common) };
     each.into_par_iter().map(own).collect()
 }

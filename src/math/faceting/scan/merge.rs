@@ -33,7 +33,8 @@ pub(super) fn join(
             let Some(both) = sums[i].with(&sums[j]).fit(corners.inside) else { continue };
             let count = both.count as f64;
             let variance = (variances[i] * a.count as f64 + variances[j] * b.count as f64) / count;
-            let excess = (both.squares - a.squares - b.squares - bending(corners.steps, &both)) / variance - 3.0 * count.ln();
+            let excess = (both.squares - a.squares - b.squares - bending(corners.steps, &both)) / variance
+                - 3.0 * count.ln();
             if excess < EXCESS {
                 pairs.push((excess, i, j));
             }

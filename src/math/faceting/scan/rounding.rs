@@ -68,7 +68,10 @@ pub(super) fn alike(steps: DVec3, fit: &PlaneEstimate, of: &[DVec3], noise: f64)
         let one = fit.plane.normal[axis].powi(2) * q * q / 12.0 * left;
         let mut sorted: Vec<DVec3> = of.to_vec();
         sorted.sort_by(|a, b| a[axis].total_cmp(&b[axis]));
-        let taken = sorted.last().zip(sorted.first()).map_or(0.0, |(last, first)| (last[axis] - first[axis]) / q + 1.0);
+        let taken = sorted
+            .last()
+            .zip(sorted.first())
+            .map_or(0.0, |(last, first)| (last[axis] - first[axis]) / q + 1.0);
         let even = of.len() as f64 / taken;
         let rows = sorted.chunk_by(|a, b| b[axis] - a[axis] < 0.5 * q);
         for row in rows.filter(|row| taken <= FEW_STEPS || row.len() as f64 > CROWDED * even + 1.0) {

@@ -91,7 +91,10 @@ impl<'a> Chunks<'a> {
     }
 
     /// Returns the plane of some chunks; `None` where they have too few corners.
-    fn fit(&self, of: impl std::slice::SliceIndex<[PointSums], Output = [PointSums]>) -> Option<PlaneEstimate> {
+    fn fit(
+        &self,
+        of: impl std::slice::SliceIndex<[PointSums], Output = [PointSums]>,
+    ) -> Option<PlaneEstimate> {
         let (first, rest) = self.sums[of].split_first()?;
         let sums = rest.iter().fold(*first, |sum, part| sum.with(part));
         sums.fit(self.corners.inside).filter(|_| sums.count >= LEAST)
