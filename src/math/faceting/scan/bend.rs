@@ -1,7 +1,7 @@
 //! How far the corners of a facet bend off its plane by more than noise.
 
 use super::Fitted;
-use super::patches::Corners;
+use super::patches::ScanCorners;
 use super::points::PlaneEstimate;
 use super::rounding::bending;
 use crate::math::faceting::deviation::outermost;
@@ -42,7 +42,7 @@ pub(super) struct Bend {
 }
 
 /// Returns the surface of second order that fits a facet's corners best; `None` for too few corners.
-pub(super) fn bend(corners: &Corners, of: &[u32], fit: &PlaneEstimate) -> Option<Bend> {
+pub(super) fn bend(corners: &ScanCorners, of: &[u32], fit: &PlaneEstimate) -> Option<Bend> {
     if of.len() < LEAST {
         return None;
     }
@@ -65,7 +65,7 @@ pub(super) fn bend(corners: &Corners, of: &[u32], fit: &PlaneEstimate) -> Option
 
 /// Returns for each facet of a solid whether its corners bend by more than noise, alone or together with those of neighbours that
 /// lean little from it, or lie off it, so that it may be several facets. `inflation` is that of the noise's variance by its correlation.
-pub(super) fn are_bent(corners: &Corners, fitted: &Fitted, inflation: f64) -> Vec<bool> {
+pub(super) fn are_bent(corners: &ScanCorners, fitted: &Fitted, inflation: f64) -> Vec<bool> {
     let Fitted { polytope, members, fits } = fitted;
     let bend_of = |(of, fit): (&Vec<u32>, &PlaneEstimate)| {
         let bend = bend(corners, of, fit)?;
@@ -96,7 +96,7 @@ pub(super) fn are_bent(corners: &Corners, fitted: &Fitted, inflation: f64) -> Ve
 }
 
 /// Returns for each facet whether many of the corners that lie nearest to it lie off it.
-fn are_off(corners: &Corners, fitted: &Fitted) -> Vec<bool> {
+fn are_off(corners: &ScanCorners, fitted: &Fitted) -> Vec<bool> {
     let planes: Vec<Plane> = fitted.polytope.planes().collect();
     let mut off = vec![0; planes.len()];
     for (at, _) in corners.at.iter().zip(&fitted.members.explained).filter(|(_, known)| !**known) {

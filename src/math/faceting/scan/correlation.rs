@@ -2,7 +2,7 @@
 //! independent ones.
 
 use super::members::Members;
-use super::patches::{Corners, Visited};
+use super::patches::{ScanCorners, Visited};
 use super::points::PlaneEstimate;
 use rayon::prelude::*;
 
@@ -42,7 +42,7 @@ const NOWHERE: u32 = u32::MAX;
 
 /// Returns the factor by which the noise's correlation multiplies the variance of means over a facet: 1 plus the sum of the
 /// correlations of a corner with all others; 1 for independent noise.
-pub(super) fn inflation(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> f64 {
+pub(super) fn inflation(corners: &ScanCorners, members: &Members, fits: &[PlaneEstimate]) -> f64 {
     let residuals = residuals(corners, members, fits);
     let known: Vec<u32> =
         (0..residuals.len() as u32).filter(|&v| residuals[v as usize].facet != NOWHERE).collect();
@@ -77,7 +77,7 @@ fn summed(rings: &[Ring], corners: f64, factor: f64) -> f64 {
     sum
 }
 
-fn residuals(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> Vec<Residual> {
+fn residuals(corners: &ScanCorners, members: &Members, fits: &[PlaneEstimate]) -> Vec<Residual> {
     let mut all = vec![Residual { facet: NOWHERE, distance: 0.0 }; corners.at.len()];
     for ((facet, of), fit) in (0..).zip(&members.of).zip(fits) {
         let scale = fit.variance().sqrt();
@@ -93,7 +93,7 @@ fn residuals(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> Ve
 
 /// Returns the sums over the pairs of a corner with those around it, ring by ring.
 fn rings(
-    corners: &Corners,
+    corners: &ScanCorners,
     residuals: &[Residual],
     fits: &[PlaneEstimate],
     corner: u32,

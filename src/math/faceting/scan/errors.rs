@@ -1,7 +1,7 @@
 //! The standard errors of fitted planes: from the noise about each plane, its correlation, and rounding.
 
 use super::members::Members;
-use super::patches::Corners;
+use super::patches::ScanCorners;
 use super::points::PlaneEstimate;
 use super::rounding;
 use crate::math::faceting::plane_error::PlaneError;
@@ -59,7 +59,7 @@ fn by_direction(fits: &[PlaneEstimate], mean: f64) -> DMat3 {
 
 /// Returns the standard errors of all planes. `inflation` is that of the noise's variance by its correlation.
 pub(super) fn errors(
-    corners: &Corners,
+    corners: &ScanCorners,
     members: &Members,
     fits: &[PlaneEstimate],
     inflation: f64,

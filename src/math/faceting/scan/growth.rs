@@ -1,6 +1,6 @@
 //! Grows patches to regions that share a plane, whose planes no corner lies beyond.
 
-use super::patches::{Corners, Patch, Visited};
+use super::patches::{Patch, ScanCorners, Visited};
 use super::points::PlaneEstimate;
 
 /// Corners within this many standard deviations of the noise of a plane may lie on it.
@@ -29,7 +29,7 @@ const REFUSED: u8 = 2;
 /// Returns planes of facets for noise of this standard deviation. Corners whose `is_explained` is true lie on facets that are
 /// known, so that no region begins there. `None` where there are more than `most`.
 pub(super) fn grown(
-    corners: &Corners,
+    corners: &ScanCorners,
     noise: f64,
     is_explained: &[bool],
     most: usize,
@@ -50,7 +50,7 @@ pub(super) fn grown(
 }
 
 struct Grower<'a> {
-    corners: &'a Corners<'a>,
+    corners: &'a ScanCorners<'a>,
     noise: f64,
     marks: Vec<u8>,
     visited: Visited,

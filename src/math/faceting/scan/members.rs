@@ -5,7 +5,7 @@
 //! hides on which side they belong are left out. Where the scan has corners on the edges, as a divided model has, they count
 //! for both facets.
 
-use super::patches::Corners;
+use super::patches::ScanCorners;
 use super::points::{PlaneEstimate, PointSums};
 use crate::math::faceting::deviation::outermost;
 use crate::math::{Plane, Polytope};
@@ -60,7 +60,7 @@ pub(super) struct Members {
 
 impl Members {
     /// Finds the corners of each facet of a solid, for noise with these standard deviations about the facets' planes.
-    pub fn of(corners: &Corners, solid: &Polytope, noises: &[f64]) -> Self {
+    pub fn of(corners: &ScanCorners, solid: &Polytope, noises: &[f64]) -> Self {
         let facets = outlined(solid, noises);
         let planes: Vec<Plane> = solid.planes().collect();
         let lies: Vec<(usize, f64)> = corners.at.par_iter().map(|&v| outermost(&planes, v)).collect();
@@ -100,7 +100,7 @@ impl Members {
     }
 
     /// Returns the sums over the corners of each facet.
-    pub fn sums(&self, corners: &Corners) -> Vec<PointSums> {
+    pub fn sums(&self, corners: &ScanCorners) -> Vec<PointSums> {
         let sums = |members: &Vec<u32>| {
             let mut sums =
                 PointSums::about(members.first().map_or(corners.inside, |&v| corners.at[v as usize]));
@@ -115,7 +115,7 @@ impl Members {
 /// so on its neighbours, but the triangles between them do not.
 ///
 /// The noise of a triangle's middle is less than that of its corners, by a part that depends on their correlation.
-fn deep_triangles<'a>(corners: &Corners<'a>, planes: &[Plane], facets: &[Outlined]) -> Vec<&'a [u32; 3]> {
+fn deep_triangles<'a>(corners: &ScanCorners<'a>, planes: &[Plane], facets: &[Outlined]) -> Vec<&'a [u32; 3]> {
     let depth = |t: &[u32; 3]| {
         let (f, distance) = outermost(planes, t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0);
         // Planes that fit without any noise leave only rounding.
@@ -151,7 +151,7 @@ fn outlined(solid: &Polytope, noises: &[f64]) -> Vec<Outlined> {
 
 /// Returns whether the scan has corners on the edges of the stone, which can be told from others.
 fn has_corners_on_edges(
-    corners: &Corners,
+    corners: &ScanCorners,
     solid: &Polytope,
     facets: &[Outlined],
     lies: &[(usize, f64)],
@@ -182,7 +182,7 @@ fn has_corners_on_edges(
 
 /// Returns the standard deviation of the noise about each plane: from the median of its own corners' distances where these
 /// are many and deviate more than most, and otherwise from the median of all.
-pub(super) fn noises(corners: &Corners, members: &Members, fits: &[PlaneEstimate]) -> Vec<f64> {
+pub(super) fn noises(corners: &ScanCorners, members: &Members, fits: &[PlaneEstimate]) -> Vec<f64> {
     /// A median of fewer corners is too uncertain.
     const MANY: usize = 30;
     let sizes = |(fit, members): (&PlaneEstimate, &Vec<u32>)| -> Vec<f64> {

@@ -1,6 +1,6 @@
 //! Joins facets that one plane fits as well as two.
 
-use super::patches::Corners;
+use super::patches::ScanCorners;
 use super::points::{PlaneEstimate, PointSums};
 use super::rounding::bending;
 use crate::math::Polytope;
@@ -20,7 +20,7 @@ pub(super) fn join(
     sums: &mut [PointSums],
     fits: &mut [Option<PlaneEstimate>],
     variances: &[f64],
-    corners: &Corners,
+    corners: &ScanCorners,
 ) -> usize {
     let mut pairs = vec![];
     for (i, facet) in solid.facets().iter().enumerate() {

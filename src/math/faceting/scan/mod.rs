@@ -24,7 +24,7 @@ use super::plane_error::PlaneError;
 use crate::math::{Plane, Polytope, Surface};
 use growth::grown;
 use members::{Members, noises};
-use patches::Corners;
+use patches::ScanCorners;
 use points::PlaneEstimate;
 
 /// The fewest corners of a surface that can be a scan.
@@ -63,7 +63,7 @@ pub(super) fn scanned(surface: &Surface, most: usize) -> Option<ScannedSolid> {
     if surface.vertices.len() < FEWEST {
         return None;
     }
-    let corners = Corners::of(surface);
+    let corners = ScanCorners::of(surface);
     let noise = corners.noise()?;
     ASSUMED.iter().find_map(|times| Scan { surface, corners: &corners, noise: times * noise, most }.solid())
 }
@@ -71,7 +71,7 @@ pub(super) fn scanned(surface: &Surface, most: usize) -> Option<ScannedSolid> {
 /// A scan, and the noise that is assumed.
 struct Scan<'a> {
     surface: &'a Surface,
-    corners: &'a Corners<'a>,
+    corners: &'a ScanCorners<'a>,
     noise: f64,
     /// The most regions that are grown.
     most: usize,
@@ -204,7 +204,7 @@ impl State {
     /// Takes over fitted planes, and returns whether they are settled.
     fn follow(
         &mut self,
-        corners: &Corners,
+        corners: &ScanCorners,
         before: &Polytope,
         members: &Members,
         fits: &[PlaneEstimate],

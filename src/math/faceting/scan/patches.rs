@@ -93,7 +93,7 @@ impl Visited {
 }
 
 /// The corners of a scan, their neighbours, and a point inside.
-pub(super) struct Corners<'a> {
+pub(super) struct ScanCorners<'a> {
     pub at: &'a [DVec3],
     pub triangles: &'a [[u32; 3]],
     pub neighbours: Neighbours,
@@ -105,7 +105,7 @@ pub(super) struct Corners<'a> {
     pub steps: DVec3,
 }
 
-impl<'a> Corners<'a> {
+impl<'a> ScanCorners<'a> {
     pub fn of(surface: &'a Surface) -> Self {
         let count = surface.vertices.len() as f64;
         Self {

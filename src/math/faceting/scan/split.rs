@@ -2,7 +2,7 @@
 
 use super::growth::NEAR;
 use super::members::Members;
-use super::patches::Corners;
+use super::patches::ScanCorners;
 use super::points::{PlaneEstimate, PointSums};
 use super::rounding::bending;
 use crate::math::Plane;
@@ -24,7 +24,7 @@ const LEAST: usize = 6;
 /// Returns the planes of the two parts of each facet that is divided. `inflation` is that of the noise's variance by its
 /// correlation.
 pub(super) fn split(
-    corners: &Corners,
+    corners: &ScanCorners,
     members: &Members,
     fits: &[PlaneEstimate],
     inflation: f64,
@@ -42,7 +42,7 @@ struct Parts {
 }
 
 /// Returns the planes of the two parts into which a facet is divided best; `None` where one plane fits as well.
-fn parts(corners: &Corners, of: &[u32], fit: &PlaneEstimate, inflation: f64) -> Option<[Plane; 2]> {
+fn parts(corners: &ScanCorners, of: &[u32], fit: &PlaneEstimate, inflation: f64) -> Option<[Plane; 2]> {
     let best = (0..DIRECTIONS).filter_map(|k| {
         let turn = f64::from(k) / f64::from(DIRECTIONS) * std::f64::consts::PI;
         along(corners, of, fit, fit.axes[0] * turn.cos() + fit.axes[1] * turn.sin())
@@ -55,7 +55,7 @@ fn parts(corners: &Corners, of: &[u32], fit: &PlaneEstimate, inflation: f64) -> 
 }
 
 /// Divides a facet across a direction at the best place.
-fn along(corners: &Corners, of: &[u32], fit: &PlaneEstimate, direction: DVec3) -> Option<Parts> {
+fn along(corners: &ScanCorners, of: &[u32], fit: &PlaneEstimate, direction: DVec3) -> Option<Parts> {
     let parts = Chunks::along(corners, of.to_vec(), fit.middle, direction);
     let divided = (1..parts.sums.len()).filter_map(|place| {
         let (one, other) = (parts.fit(..place)?, parts.fit(place..)?);
@@ -74,12 +74,12 @@ fn is_convex(one: &PlaneEstimate, other: &PlaneEstimate) -> bool {
 
 /// Sums over corners by their place along a direction.
 struct Chunks<'a> {
-    corners: &'a Corners<'a>,
+    corners: &'a ScanCorners<'a>,
     sums: Vec<PointSums>,
 }
 
 impl<'a> Chunks<'a> {
-    fn along(corners: &'a Corners<'a>, mut of: Vec<u32>, origin: DVec3, direction: DVec3) -> Self {
+    fn along(corners: &'a ScanCorners<'a>, mut of: Vec<u32>, origin: DVec3, direction: DVec3) -> Self {
         let place = |v: u32| corners.at[v as usize].dot(direction);
         of.sort_by(|&a, &b| place(a).total_cmp(&place(b)).then(a.cmp(&b)));
         let sums = of.chunks(of.len().div_ceil(PLACES).max(1)).map(|chunk| {

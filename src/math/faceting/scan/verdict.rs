@@ -2,7 +2,7 @@
 
 use super::Fitted;
 use super::bend::{Bend, FORMS, bend};
-use super::patches::Corners;
+use super::patches::ScanCorners;
 use crate::math::{Plane, Polytope, Surface};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -28,7 +28,7 @@ const VOLUME: f64 = 4e-4;
 const CUT_OFF: f64 = 0.02;
 
 /// Returns whether a solid reproduces a scan except for noise.
-pub(super) fn is_reproduced(surface: &Surface, corners: &Corners, fitted: &Fitted) -> bool {
+pub(super) fn is_reproduced(surface: &Surface, corners: &ScanCorners, fitted: &Fitted) -> bool {
     let Fitted { polytope, members, fits } = fitted;
     let freedom: usize = fits.iter().map(|fit| fit.freedom()).sum();
     let unexplained = members.explained.iter().filter(|known| !**known).count();
@@ -41,7 +41,7 @@ pub(super) fn is_reproduced(surface: &Surface, corners: &Corners, fitted: &Fitte
 
 /// Returns the part of the squared distances of all corners from their facets that facets of second order explain, less what
 /// they explain of noise.
-fn curved_part(corners: &Corners, fitted: &Fitted) -> f64 {
+fn curved_part(corners: &ScanCorners, fitted: &Fitted) -> f64 {
     let (mut explained, mut whole) = (0.0, 0.0);
     for (fit, of) in fitted.fits.iter().zip(&fitted.members.of) {
         if let Some(Bend { fall, .. }) = bend(corners, of, fit) {
