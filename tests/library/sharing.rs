@@ -53,7 +53,8 @@ fn wavelengths_that_share_beams_show_what_each_shows_alone() {
         (modern(), "strontium titanate", "lamps", 4e-3),
     ] {
         let shoot = shoot(stone, material, name);
-        let options = BeamOptions { unresolved, ..BeamOptions::default() };
+        // The light of some of these stones would end at the usual limit of memory.
+        let options = BeamOptions { unresolved, most_bytes: 1 << 30, ..BeamOptions::default() };
         let (shared, rest) = shoot.by_beams_of(options, false);
         let (apart, rest_apart) = shoot.by_beams_of(options, true);
         let found = steps(&shared, &apart);
@@ -161,6 +162,9 @@ fn shared_beams_are_white_in_white_light() {
         let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
         let off = mean - 1.0;
         println!("{material}: {off}, {rest:?}");
-        assert!(off.abs().max_element() < 3e-4, "{material}: red, green and blue are off by {off}");
+        // Of the light that rays estimate, a part of 0.2 %, some is missing.
+        assert!(off.abs().max_element() < 6e-4, "{material}: red, green and blue are off by {off}");
+        let tint = off - off.element_sum() / 3.0;
+        assert!(tint.abs().max_element() < 2e-4, "{material}: white has a tint of {tint}");
     }
 }

@@ -66,7 +66,7 @@ fn eight_main_highlight_has_no_split_meet_and_eight_with_a_table_half_a_percent_
     assert_eq!(deeper.of_kind(FindingKind::SplitMeet).count(), 8);
     assert_eq!(deeper.findings.len(), 8, "{deeper:?}");
     for finding in &deeper.findings {
-        assert!(finding.facets.iter().any(|name| name == "table"), "{finding:?}");
+        assert!(finding.facets.iter().any(|name| name == "T"), "{finding:?}");
         let [a, b] = finding.points[..] else { panic!("two places are expected: {finding:?}") };
         assert!((100.0 * a.distance(b) / (2.0 * 0.99144) - finding.size).abs() < 0.02, "{finding:?}");
         assert!(finding.size < finding.threshold && finding.threshold == SPLIT_MEET);
