@@ -132,6 +132,7 @@ fn every_facet_is_found_and_known_to_its_standard_errors_in_scans_of_all_kinds()
 fn standard_errors_cover_at_any_noise_and_number_of_triangles() {
     let stone = uneven();
     let cases = [(2_000, 0.3), (2_000, 5.0), (8_000, 0.5), (8_000, 3.0), (30_000, 2.0), (60_000, 5.0)];
+    let mut all = Tally::default();
     for (triangles, noise_um) in cases {
         let mut tally = Tally::default();
         let seeds = if triangles > 10_000 { 1..=1 } else { 1..=4 };
@@ -139,13 +140,17 @@ fn standard_errors_cover_at_any_noise_and_number_of_triangles() {
             let scan = Scan::meshed(triangles, noise_um, seed);
             tally.add(&found(&scan, &stone), &scan.planes(&stone), &format!("{triangles} at {noise_um} um"));
         }
-        let least = if triangles > 10_000 { 90.0 } else { 92.0 };
+        // A part of so many errors scatters by its standard deviation.
+        let scatter = 100.0 * (0.95 * 0.05 / tally.count as f64).sqrt();
         assert!(
-            tally.coverage().iter().all(|c| (least..98.5).contains(c)),
+            tally.coverage().iter().all(|c| (c - 95.0).abs() < 2.0 + 3.0 * scatter),
             "{triangles} at {noise_um} um: {:?}",
             tally.coverage()
         );
+        (0..3).for_each(|k| all.inside[k] += tally.inside[k]);
+        all.count += tally.count;
     }
+    assert!(all.coverage().iter().all(|c| (93.0..97.0).contains(c)), "{:?} of {}", all.coverage(), all.count);
 }
 
 #[test]
