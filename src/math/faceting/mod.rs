@@ -113,11 +113,13 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, NotFaceted> {
     Ok(Box::new(faceted(moved, centre, solid, true)))
 }
 
-/// Returns whether noise bends a surface everywhere, as that of a scan: nearly as often inward as outward.
+/// Returns whether noise bends a surface everywhere, as that of a scan: nearly as often inward as outward. A model of few corners, such
+/// as a star, may bend inward as often by intent.
 pub fn is_noisy(surface: &Surface) -> bool {
     /// The part of the edges that bend inward.
     const INWARD: f64 = 0.25;
-    Change::inward_edges(surface) as f64 > INWARD * 1.5 * surface.triangles.len() as f64
+    surface.vertices.len() >= scan::FEWEST
+        && Change::inward_edges(surface) as f64 > INWARD * 1.5 * surface.triangles.len() as f64
 }
 
 /// The error where a surface cannot be read as a stone with flat facets.

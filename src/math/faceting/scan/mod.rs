@@ -28,7 +28,7 @@ use patches::ScanCorners;
 use points::PlaneEstimate;
 
 /// The fewest corners of a surface that can be a scan.
-const FEWEST: usize = 200;
+pub(super) const FEWEST: usize = 200;
 
 /// The noise that is assumed, in multiples of what patches show. Patches show less where the noise of neighbouring corners is
 /// correlated, or less in some directions than in others.
