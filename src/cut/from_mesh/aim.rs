@@ -232,8 +232,7 @@ fn own(cues: &Cues, even: f64, custom: DVec3) -> f64 {
     let near = if cues.table_area > 0.0 { PUT_ALONG } else { ONE };
     let is = |axis: DVec3| (cues.up - axis).length() < near;
     let fits = cues.table_area > 0.0 || cues.culet_area > 0.0 || cues.girdle > FITS || even > FITS;
-    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let along = fits && axes.iter().any(|axis| is(*axis) || is(-*axis));
+    let along = fits && axes().into_iter().any(is);
     let second = if custom == DVec3::Y { DVec3::Z } else { DVec3::Y };
     let usual = match () {
         () if is(custom) => 1.0,
@@ -243,6 +242,16 @@ fn own(cues: &Cues, even: f64, custom: DVec3) -> f64 {
     weight::CUSTOM * usual + if along { weight::OWN_AXIS } else { 0.0 }
 }
 
+/// Returns the axes of the file, each in both directions.
+fn axes() -> [DVec3; 6] {
+    [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z]
+}
+
+/// Returns the axis of the file along which a stone with this direction up was put; `None` where it lies along none.
+pub(super) fn put_along(up: DVec3) -> Option<DVec3> {
+    axes().into_iter().find(|axis| axis.distance(up) < PUT_ALONG)
+}
+
 /// Returns all directions that may be up, each once: normals of facets, directions that many edges are parallel to,
 /// principal axes and axes of the file, and the opposites of all of these.
 pub fn directions(solid: &Polytope) -> Vec<DVec3> {
@@ -250,8 +259,7 @@ pub fn directions(solid: &Polytope) -> Vec<DVec3> {
     places.sort_by(|&a, &b| compare(solid, b, a));
     let normals = places.iter().take(MOST_TABLES).map(|&f| solid.facets()[f].plane.normal);
     let mut found: Vec<DVec3> = vec![];
-    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    for axis in normals.chain(parallels(solid)).chain(principal(solid)).chain(axes) {
+    for axis in normals.chain(parallels(solid)).chain(principal(solid)).chain(axes()) {
         for direction in [axis, -axis] {
             if found.iter().all(|other| (*other - direction).length() >= ONE) {
                 found.push(direction);

@@ -49,6 +49,27 @@ pub struct FromMesh {
     pub doubt: Option<Doubt>,
 }
 
+/// The direction that was taken as up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UpFound {
+    /// The direction in the surface's frame, a unit vector.
+    pub up: DVec3,
+    /// Another direction that may be up, where the shape leaves a doubt.
+    pub doubt: Option<Doubt>,
+}
+
+/// Finds the direction up of a surface by its facets, such as those of the hull of a surface that is not convex. An axis of
+/// the surface's frame that lies within 1.5 degrees of it is taken instead, so that a stone which was put along that axis
+/// stays as it is.
+///
+/// # Errors
+/// Fails where the direction up is given and is zero or not finite.
+pub fn find_up(found: &Faceted, up: Up) -> Result<UpFound, FromMeshError> {
+    let parts = even::FacetParts::about(found, even::centroid(&found.polytope));
+    let Aim { axis, doubt, .. } = aim(&found.polytope, &parts, up, found.deviation.max(found.tolerance))?;
+    Ok(UpFound { up: aim::put_along(axis).unwrap_or(axis), doubt })
+}
+
 /// Poses, evens and names the facets of a surface.
 ///
 /// # Errors

@@ -3,12 +3,14 @@
 use super::file::{self, MaterialHint, MeshFile, MeshFormat, Statement};
 use super::parts::ChosenPart;
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful, usual_up};
-use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, directions, from_mesh};
+use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, UpFound, directions, find_up, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
-use crate::math::faceting::{Change, Faceted, NotFaceted, SurfaceKind, faceted_hull, facets, is_noisy};
+use crate::math::faceting::{
+    Change, Faceted, NotFaceted, SurfaceKind, faceted_hull, facets, hull_facets, is_noisy,
+};
 use crate::math::mending::{Mended, OpenPiece, SurfaceError};
 use crate::math::{Pose, Surface, Symmetry, TriangleMesh, signed};
 use glam::{DQuat, DVec3};
@@ -247,11 +249,7 @@ impl File {
         let mesh = TriangleMesh::new(surface).map_err(Fault::whole)?;
         let turn = match up {
             Up::Posed(pose) => pose.turn,
-            Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {
-                let up = up.try_normalize().ok_or("the direction up must not be 0")?;
-                DQuat::from_rotation_arc(up, DVec3::Z)
-            }
-            Up::Found => DQuat::IDENTITY,
+            up => DQuat::from_rotation_arc(axis_of_triangles(mesh.surface(), up, &mut remarks)?, DVec3::Z),
         };
         let (shape, pose) =
             MeshShape::framed(&mesh, turn).ok_or("it has no extent across the direction up")?;
@@ -260,7 +258,7 @@ impl File {
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / pose.scale;
         }
-        remarks.has_other_reading = why.is_some();
+        remarks.has_other_reading = why.is_some() || remarks.is_doubtful;
         remarks.notes.extend(why.map(str::to_owned));
         remarks.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
         self.brought(Cut::Mesh(shape), pose, remarks)
@@ -298,6 +296,24 @@ impl File {
             (_, None) => (usual, Ok(Some(unsaid()))),
         }
     }
+}
+
+/// Returns the direction up of a surface that is read as triangles, a unit vector. Where it is to be found, the facets of the
+/// surface's hull show it; where the hull has none, the axis that is up by custom is taken.
+fn axis_of_triangles(surface: &Surface, up: Up, remarks: &mut MeshRemarks) -> Result<DVec3, Fault> {
+    let custom = match up {
+        Up::Found => DVec3::Z,
+        Up::FoundBy(custom) => custom,
+        Up::Given(up) | Up::Known(up) => {
+            return Ok(up.try_normalize().ok_or("the direction up must not be 0")?);
+        }
+        Up::Posed(pose) => return Ok(pose.turn.inverse() * DVec3::Z),
+    };
+    let Some(hull) = hull_facets(surface) else { return Ok(custom) };
+    let UpFound { up, doubt } = find_up(&hull, up).map_err(Fault::whole)?;
+    remarks.is_doubtful = doubt.is_some();
+    remarks.notes.extend(doubt.map(|doubt| doubtful(up, doubt.other)));
+    Ok(up)
 }
 
 fn unsaid() -> String {

@@ -108,9 +108,15 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, NotFaceted> {
     if is_noisy(&surface) {
         return Err(NotFaceted::Noisy);
     }
-    let (moved, centre) = centred(&surface);
-    let solid = Hull::of(&moved).as_ref().and_then(Hull::solid).ok_or(NotFaceted::Curved)?;
-    Ok(Box::new(faceted(moved, centre, solid, true)))
+    hull_facets(&surface).ok_or(NotFaceted::Curved)
+}
+
+/// Returns the hull of the corners of a surface as a solid between the fewest planes that fit it, even where noise makes some
+/// of them; `None` where the hull is curved, or has too many facets.
+pub fn hull_facets(surface: &Surface) -> Option<Box<Faceted>> {
+    let (moved, centre) = centred(surface);
+    let solid = Hull::of(&moved)?.solid()?;
+    Some(Box::new(faceted(moved, centre, solid, true)))
 }
 
 /// Returns whether noise bends a surface everywhere, as that of a scan: nearly as often inward as outward. A model of few corners, such
