@@ -12,6 +12,9 @@ use std::cmp::Ordering;
 /// The table is a facet whose normal is at least this near to a direction given as up (cosine, 5 degrees).
 const NEAR_UP: f64 = 0.996_194_698;
 
+/// The largest facet that is near to a direction given as up is the table if all others have less than this part of its area.
+const LESSER: f64 = 0.5;
+
 /// Directions that differ by less than this (length of the difference of unit vectors) are the same.
 const ONE: f64 = 1e-3;
 
@@ -114,7 +117,7 @@ pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up, noise: f64) -> R
     let custom = match up {
         Up::Found => DVec3::Z,
         Up::FoundBy(custom) => custom,
-        Up::Given(given) => return toward(solid, given).ok_or(FromMeshError::Up(given)),
+        Up::Given(given) => return toward(solid, given, noise).ok_or(FromMeshError::Up(given)),
         Up::Known(up) => return Ok(known(solid, up)),
         Up::Posed(pose) => return Ok(known(solid, pose.turn.inverse() * DVec3::Z)),
     };
@@ -161,8 +164,9 @@ impl Seen {
     fn may_be(&self, best: &Self) -> bool {
         let is_less_likely = self.own < best.own - LESS_LIKELY;
         let least = best.shape - if is_less_likely { LESS_DOUBTFUL } else { DOUBTFUL };
+        let is_near = self.shape > least;
         let apart = (self.cues.up - best.cues.up).length();
-        self.shape > least && apart >= PUT_ALONG && !is_alike(&self.cues, &best.cues)
+        is_near && apart >= PUT_ALONG && !is_alike(&self.cues, &best.cues)
     }
 
     /// Adds the scores of symmetry, which takes longer to compute, and of height.
@@ -173,15 +177,22 @@ impl Seen {
     }
 }
 
-/// Returns the axis where up is given: the normal of the largest facet near to it, or else the given direction.
-/// `None` where the given direction is zero or not finite.
-fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
+/// Returns the axis where up is given: the normal of the table near to the given direction, or else that direction. `None`
+/// where it is zero or not finite.
+fn toward(solid: &Polytope, given: DVec3, noise: f64) -> Option<Aim> {
     let unit = Plane::new(given, 0.0).normalized()?.normal;
-    let facets = solid.facets().iter().enumerate();
-    let near = facets.filter(|(_, f)| f.plane.normal.dot(unit) >= NEAR_UP);
-    let larger = |a: &(usize, _), b: &(usize, _)| compare(solid, a.0, b.0);
-    let table = near.max_by(larger).map(|(place, _)| place);
-    Some(Aim { axis: table.map_or(unit, |t| solid.facets()[t].plane.normal), table, doubt: None })
+    let slack = Slack::of_noise(noise);
+    let normal = |f: usize| solid.facets()[f].plane.normal;
+    let near: Vec<usize> = (0..solid.facets().len()).filter(|&f| normal(f).dot(unit) >= NEAR_UP).collect();
+    let largest = near.iter().copied().max_by(|&a, &b| compare(solid, a, b));
+    let area = |f: usize| solid.facet_area(&solid.facets()[f]);
+    let is_less =
+        |f: usize, table: usize| slack.is_square(normal(f), normal(table)) || area(f) < LESSER * area(table);
+    // Several of about one size are a crown without a table, which a tilt toward one of them would lay askew.
+    let table = largest.filter(|&table| near.iter().all(|&f| is_less(f, table)));
+    let about = table.map_or(unit, normal);
+    let axis = slack.normal(solid, about).unwrap_or(unit);
+    Some(Aim { axis, table: Cues::of(solid, about, slack).and_then(|cues| cues.table), doubt: None })
 }
 
 /// Returns the axis where up is known exactly. A facet square to the axis is the table.

@@ -36,9 +36,14 @@ impl Slack {
         Self { noise, square: 1.0 - SPLIT * SPLIT / 2.0 }
     }
 
+    /// Returns whether a facet of this normal is square to a direction.
+    pub fn is_square(self, normal: DVec3, direction: DVec3) -> bool {
+        normal.dot(direction) >= self.square
+    }
+
     /// Returns the mean normal, weighted by area, of the facets that are square to a direction; `None` without one.
     pub fn normal(self, solid: &Polytope, direction: DVec3) -> Option<DVec3> {
-        let near = solid.facets().iter().filter(|facet| facet.plane.normal.dot(direction) >= self.square);
+        let near = solid.facets().iter().filter(|facet| self.is_square(facet.plane.normal, direction));
         near.map(|facet| facet.plane.normal * solid.facet_area(facet)).sum::<DVec3>().try_normalize()
     }
 }
@@ -118,7 +123,7 @@ impl Cues {
 /// Returns the largest facet that is square to a direction, if there is one, and the area of all that are.
 fn square(solid: &Polytope, direction: DVec3, slack: Slack) -> (Option<usize>, f64) {
     let facets = solid.facets().iter().enumerate();
-    let near = facets.filter(|(_, facet)| facet.plane.normal.dot(direction) >= slack.square);
+    let near = facets.filter(|(_, facet)| slack.is_square(facet.plane.normal, direction));
     let areas: Vec<(usize, f64)> = near.map(|(place, facet)| (place, solid.facet_area(facet))).collect();
     let largest = areas.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| *place);
     (largest, areas.iter().map(|(_, area)| area).sum())

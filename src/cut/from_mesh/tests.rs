@@ -194,6 +194,28 @@ fn up_may_be_given_and_must_be_a_direction() {
     assert!(aslant.facets.iter().all(|(name, _)| name != "table"));
 }
 
+/// A roof whose two sides lean by 4 degrees is no table, and a stone whose up is given is not tilted toward one of them.
+#[test]
+fn a_crown_without_a_table_is_not_tilted_toward_one_of_its_facets() {
+    let level = |x: f64, y: f64| Plane::new(DVec3::new(x, y, 0.0), 1.0);
+    let lean = |azimuth: f64, degrees: f64, offset: f64| {
+        Plane::from_slope(f64::to_radians(degrees), azimuth, offset)
+    };
+    let quarter = |k: f64| k * std::f64::consts::FRAC_PI_2;
+    let sides = [level(1.0, 0.0), level(-1.0, 0.0), level(0.0, 1.0), level(0.0, -1.0)];
+    let pavilion = [0.0, 1.0, 2.0, 3.0].map(|k| lean(quarter(k), 138.0, 0.8));
+    let roof = [lean(0.0, 4.0, 0.3), lean(quarter(2.0), 4.0, 0.3)];
+    let name = |(k, plane): (usize, Plane)| (k.to_string(), plane);
+    let facets: Vec<_> = sides.into_iter().chain(pavilion).chain(roof).enumerate().map(name).collect();
+    let up = |up| again(&facets, PLAIN, up).up;
+    assert!(up(Up::Given(DVec3::Z)).distance(DVec3::Z) < 1e-12 && up(Up::Found).distance(DVec3::Z) < 1e-9);
+    // With a table of its own the direction that is given need not be exact.
+    let table = [name((99, Plane::new(DVec3::Z, 0.25)))];
+    let facets: Vec<_> = facets.into_iter().chain(table).collect();
+    let aslant = again(&facets, PLAIN, Up::Given(DVec3::new(0.0, 0.05, 1.0))).up;
+    assert!(aslant.distance(DVec3::Z) < 1e-9, "{aslant}");
+}
+
 /// Noise leans the table away from the file's axis. Then another direction, next to the table's normal, fits as well.
 /// Facets of a girdle lean at random, so that only their azimuths are symmetric.
 #[test]
