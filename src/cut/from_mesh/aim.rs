@@ -51,7 +51,7 @@ mod weight {
     /// A table as large as the outline, in addition to the score of any table.
     pub const TABLE_AREA: f64 = 0.4;
     /// A base: a facet at the bottom as large as the outline.
-    pub const BASE: f64 = 0.15;
+    pub const BASE: f64 = 0.1;
     /// A stone that is all pavilion, without a crown.
     pub const FLAT: f64 = 0.5;
     /// A stone that is taller than wide, as one that lies on its side. It counts against the direction, unless rotations of
@@ -81,7 +81,7 @@ const TALL: [f64; 2] = [0.8, 1.25];
 const FITS: f64 = 0.8;
 
 /// A direction whose shape scores lower than the best by less than this leaves a doubt, unless it lies within
-/// [`PUT_ALONG`] of the best.
+/// [`PUT_ALONG`] of the best. So does one whose shape scores lower by more, where the file's axes make up for that.
 const DOUBTFUL: f64 = 0.15;
 
 /// The same for a direction that the file's axes make less likely as well.
@@ -164,7 +164,7 @@ impl Seen {
     fn may_be(&self, best: &Self) -> bool {
         let is_less_likely = self.own < best.own - LESS_LIKELY;
         let least = best.shape - if is_less_likely { LESS_DOUBTFUL } else { DOUBTFUL };
-        let is_near = self.shape > least;
+        let is_near = self.shape > least || self.score() > best.score() - DOUBTFUL;
         let apart = (self.cues.up - best.cues.up).length();
         is_near && apart >= PUT_ALONG && !is_alike(&self.cues, &best.cues)
     }

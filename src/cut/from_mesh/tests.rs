@@ -216,6 +216,27 @@ fn a_crown_without_a_table_is_not_tilted_toward_one_of_its_facets() {
     assert!(aslant.distance(DVec3::Z) < 1e-9, "{aslant}");
 }
 
+/// A stone without a crown and a rose without a pavilion are one shape, so that the file's axes decide and a doubt stays.
+#[test]
+fn a_stone_that_is_all_pavilion_lies_as_its_file_does_and_leaves_a_doubt() {
+    let ring = |slope: f64, offset: f64| {
+        (0..8).map(move |k| {
+            let azimuth = std::f64::consts::TAU / 8.0 * f64::from(k);
+            Plane::from_slope(slope.to_radians(), azimuth, offset)
+        })
+    };
+    let planes = ring(90.0, 1.0).chain(ring(135.0, 0.9)).chain([Plane::new(DVec3::Z, 0.1)]);
+    let facets: Vec<_> = planes.enumerate().map(|(k, plane)| (k.to_string(), plane)).collect();
+    for (up, custom) in [DVec3::Y, DVec3::Z].into_iter().flat_map(|up| [DVec3::Y, DVec3::Z].map(|c| (up, c)))
+    {
+        for noise in [0.0, 1e-3] {
+            let turn = DQuat::from_rotation_arc(DVec3::Z, up);
+            let back = again(&facets, Spoilt { turn, noise, ..PLAIN }, Up::FoundBy(custom));
+            assert!(back.up.distance(up) < 0.01 && back.doubt.is_some(), "{up} {custom} {noise}: {back:?}");
+        }
+    }
+}
+
 /// Noise leans the table away from the file's axis. Then another direction, next to the table's normal, fits as well.
 /// Facets of a girdle lean at random, so that only their azimuths are symmetric.
 #[test]
