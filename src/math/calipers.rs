@@ -167,9 +167,12 @@ impl Calipers {
         let lowest = measured.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
         let equal =
             || measured.iter().filter(|(_, cost)| *cost <= lowest + EQUAL * least).map(|(found, _)| found);
-        // Equally good lines may give different widths, and a turn of the outline must not choose among these.
-        let narrowest = equal().map(|found| found.width).fold(f64::INFINITY, f64::min);
-        equal().filter(|found| found.width <= narrowest + EQUAL * least).max_by(Self::nearer_to_x).copied()
+        // Equally good lines may give different widths and lengths, and a turn of the outline must not choose among these.
+        let width = equal().map(|found| found.width).fold(f64::INFINITY, f64::min);
+        let narrow = || equal().filter(|found| found.width <= width + EQUAL * least);
+        let length = narrow().map(|found| found.length).fold(0.0, f64::max);
+        let long = narrow().filter(|found| found.length >= length - EQUAL * least);
+        Some(Self { width, length, ..*long.max_by(Self::nearer_to_x)? })
     }
 }
 
