@@ -27,7 +27,7 @@ pub struct Convert {
     #[arg(long)]
     meets: bool,
     /// Write a scene of all bodies of a mesh instead, each where it lies in the file
-    #[arg(long, conflicts_with_all = ["size", "form", "part", "as_found", "meets", "format"])]
+    #[arg(long, conflicts_with_all = ["stone", "form", "part", "as_found", "meets", "format"])]
     scene: bool,
     /// Write over the file that is read even if its comments are lost
     #[arg(long)]

@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("wanted").required(true).args(["rough", "weight", "size"]))]
+#[command(group = ArgGroup::new("wanted").required(true).args(["rough", "weight", "stone"]))]
 pub struct RoughYield {
     /// A design, or the name of a cut that comes with the program
     file: PathBuf,

@@ -15,7 +15,7 @@ use std::path::Path;
 #[command(next_help_heading = "Stone")]
 pub struct SizeOptions {
     /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's; of a scene, for every stone
-    #[arg(long = "stone", value_name = "SIZE", allow_hyphen_values = true)]
+    #[arg(id = "stone", long, value_name = "SIZE", allow_hyphen_values = true)]
     pub size: Option<Size>,
     #[command(flatten)]
     mesh: MeshArguments,

@@ -2,7 +2,7 @@
 
 use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
-use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
+use super::super::cut_file::values::{Numbers, OneOf, TomlTable};
 use super::super::file_error::Fault;
 use super::super::mesh_options::MeshPart;
 use super::super::toml_format::FORMAT;
@@ -13,6 +13,7 @@ use super::shared::{DEGREES, SizeForm, likely, material, place_mm, shown, within
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
 use crate::cut::is_printable;
 use crate::scene::{Layout, Movement};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -65,13 +66,13 @@ struct StoneForm {
 
 /// The body of a mesh that a stone is: its number, its name, or `all`.
 #[derive(Clone, Serialize, Deserialize)]
-#[serde(try_from = "OneOf<Pairs>", into = "String")]
+#[serde(try_from = "OneOf<IgnoredAny>", into = "String")]
 struct PartForm(MeshPart);
 
-impl TryFrom<OneOf<Pairs>> for PartForm {
+impl TryFrom<OneOf<IgnoredAny>> for PartForm {
     type Error = Fault;
 
-    fn try_from(form: OneOf<Pairs>) -> Result<Self, Fault> {
+    fn try_from(form: OneOf<IgnoredAny>) -> Result<Self, Fault> {
         let part = match form {
             OneOf::Text(text) => MeshPart::from(text.as_str()),
             OneOf::Number(number) => MeshPart::from(number.to_string().as_str()),

@@ -54,7 +54,9 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     if first.starts_with(b"ply") && first.get(3).is_none_or(u8::is_ascii_whitespace) {
         return Some(MeshFormat::Ply);
     }
-    let is_text = !text[..text.len().min(TEXT)].contains(&0);
+    // Zeros may pad the end of a text.
+    let end = text.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+    let is_text = !text[..end.min(TEXT)].contains(&0);
     let text = String::from_utf8_lossy(&text);
     let start = text.trim_start();
     if start.starts_with('{') {

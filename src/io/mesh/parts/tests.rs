@@ -71,7 +71,7 @@ fn separate_solids_are_counted_and_one_of_them_is_read() {
     let sizes: Vec<_> = found.bodies.iter().map(|body| (body.number, body.is_read, body.extent.z)).collect();
     assert_eq!(
         sizes,
-        [(Some(1), false, 5.0), (Some(2), false, 1.0), (Some(3), true, 2.0), (Some(4), false, 2.0)]
+        [(Some(1), false, 10.0), (Some(2), false, 2.0), (Some(3), true, 4.0), (Some(4), false, 4.0)]
     );
     assert_eq!((found.choices().len(), found.bodies[1].name.as_str()), (4, "six"));
     assert_eq!(found.bodies[2].extent.x, 4.0);

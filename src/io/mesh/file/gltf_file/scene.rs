@@ -42,7 +42,12 @@ pub(super) fn gather(document: &Document, data: &Data) -> Result<(ParsedMesh, Op
             let read =
                 format!("{} scenes are in the file; scene {}{called} is read", scenes.len(), scene.index());
             mesh.notes.push(if place > 0 {
-                format!("{read}, as the scene that would be shown has no triangles")
+                let others = if first.is_some() {
+                    "the scene that is to be shown has"
+                } else {
+                    "those before it have"
+                };
+                format!("{read}, as {others} no triangles")
             } else {
                 read
             });

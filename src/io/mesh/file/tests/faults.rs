@@ -11,7 +11,7 @@ fn message(bytes: impl Into<Vec<u8>>) -> String {
 fn faults_are_told_with_their_place_and_what_was_expected() {
     let obj = obj_text();
     let cases = [
-        (obj.replace("v 1 0 0", "v 1 zero 0"), "f:4: three numbers are expected after `v`"),
+        (obj.replace("v 1 0 0", "v 1 zero 0"), "f:4: 'zero' is not a number"),
         (obj.replace("f 1/1 3/1 2/1", "f 1 x 2"), "f:8: three or more numbers of corners"),
         (obj.replace("f -3 -2 -1", "f 1 2 7"), "f:10: the face refers to corner 7, and the file has 4"),
         (

@@ -281,7 +281,7 @@ fn the_scene_that_has_triangles_is_read_and_hidden_nodes_are_not() {
         ),
         (
             "\"scene\":1,\"scenes\":[{\"nodes\":[0]},{\"nodes\":[]}]",
-            "scene 0 is read, as those before it have no",
+            "scene 0 is read, as the scene that is to be shown has no",
         ),
         ("\"scenes\":[]", ""),
         ("\"scenes\":[{\"nodes\":[]}]", ""),
