@@ -147,7 +147,7 @@ fn what_is_read_as_triangles_lies_table_up_whichever_axis_of_its_file_is_up() {
                 let bytes = moved(format, bytes.clone(), &|v| turn * v);
                 let path = PathBuf::from(format!("x.{}", format.ending()));
                 let options = MeshOptions { form: MeshForm::Triangles, ..MeshOptions::default() };
-                let found = mesh::read(bytes, &path, options).unwrap();
+                let found = mesh::read(bytes, &path, &options).unwrap();
                 assert!(matches!(found.design.cut, Cut::Mesh(_)) && found.doubt == Some(false));
                 let solid = Specimen::new(found.design).unwrap();
                 let (low, high) = solid.solid().bounds();
