@@ -16,6 +16,7 @@ mod change;
 mod deviation;
 mod fit;
 mod hull;
+mod noisy;
 mod plane_error;
 mod regions;
 mod scan;
@@ -30,15 +31,13 @@ pub use change::Change;
 pub use deviation::deviation;
 use glam::DVec3;
 use hull::Hull;
+pub use noisy::{MODELLED, is_noisy};
 pub use plane_error::PlaneError;
 use regions::{NOWHERE, Regions};
 use search::{MOST_FACETS, MatchingSolid, SolidSearch};
 
 /// A region and a group of the file are the same facet if they share this part of the area of each.
 const ONE: f64 = 0.99;
-
-/// A surface with more corners than this for each facet is no model with corners only where facets meet.
-pub const MODELLED: usize = 12;
 
 /// A facet that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,15 +116,6 @@ pub fn hull_facets(surface: &Surface) -> Option<Box<Faceted>> {
     let (moved, centre) = centred(surface);
     let solid = Hull::of(&moved)?.solid()?;
     Some(Box::new(faceted(moved, centre, solid, true)))
-}
-
-/// Returns whether noise bends a surface everywhere, as that of a scan: nearly as often inward as outward. A model of few corners, such
-/// as a star, may bend inward as often by intent.
-pub fn is_noisy(surface: &Surface) -> bool {
-    /// The part of the edges that bend inward.
-    const INWARD: f64 = 0.25;
-    surface.vertices.len() >= scan::FEWEST
-        && Change::inward_edges(surface) as f64 > INWARD * 1.5 * surface.triangles.len() as f64
 }
 
 /// The error where a surface cannot be read as a stone with flat facets.
