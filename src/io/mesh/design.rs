@@ -1,7 +1,7 @@
 //! Makes stones from meshes: a convex stone becomes planes, any other triangles.
 
 use super::file::{self, MaterialHint, MeshFile, MeshFormat, Statement};
-use super::parts::ChosenPart;
+use super::parts::{ChosenPart, MeshBody};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful, usual_up};
 use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, UpFound, directions, find_up, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
@@ -88,14 +88,20 @@ impl ClosedFile {
         let (open, is_stated) = (self.open.clone(), self.statement.is_some());
         let chosen = ChosenPart::of(&self.mended, open, &options.part, is_stated).map_err(in_file)?;
         let place = MeshPlace::of(self.format, options, self.statement.clone());
-        let (hint, name) = (self.hint.clone(), self.name.clone());
-        let file = File { hint, name, place, evening: options.evening };
+        let name = name_of_read(&chosen.bodies).unwrap_or(&self.name).to_owned();
+        let file = File { hint: self.hint.clone(), name, place, evening: options.evening };
         let brought = file.of_form(options.form, chosen.surface).map_err(in_file)?;
         let notes = [self.notes.clone(), chosen.notes, brought.notes].concat();
         let warnings =
             [self.warnings.clone(), chosen.warning.into_iter().collect(), brought.warnings].concat();
         Ok(ImportedDesign { bodies: chosen.bodies, notes, warnings, ..brought })
     }
+}
+
+/// Returns the name of the one body of several that is read; `None` where it has none, or where all are read.
+fn name_of_read(bodies: &[MeshBody]) -> Option<&str> {
+    let mut read = bodies.iter().filter(|body| body.is_read).map(|body| body.name.as_str());
+    read.next().filter(|name| read.next().is_none() && is_printable(name))
 }
 
 /// Returns the fault of a surface that cannot be mended, behind the warnings about what was left out of it: they may be the
