@@ -88,8 +88,8 @@ impl Renderer {
         let (body, polytope) = job.convex()?;
         let rocking = settings.pattern.and_then(|pattern| Some((pattern, pattern.rock_deg?)));
         let share = |done: f64| watch(if rocking.is_some() { 0.2 * done } else { done });
-        // Derivatives take five times the memory of the beams besides, and each rocked view's beams stand beside these.
-        let parts = 1 + 5 * usize::from(!derivatives.is_empty()) + usize::from(rocking.is_some());
+        // Derivatives take four times the memory of the beams and more, and each rocked view's beams stand beside these.
+        let parts = 1 + 4 * usize::from(!derivatives.is_empty()) + usize::from(rocking.is_some());
         let options = job.quality.beams.with_part_of_memory(parts);
         let beams = self.beams.of((body, polytope), *medium, &job.view, &options, &share)?;
         let derivatives =

@@ -54,12 +54,12 @@ impl BeamOptions {
 
 /// Returns the usual limit of the memory of beams, bytes. With it, a program stays below 500 MB.
 fn usual_memory() -> usize {
-    350 << 20
+    400 << 20
 }
 
 /// The memory that measures and pictures compute of each beam, bytes: the directions of two colours, the strongest exits, and
 /// sums.
-const OF_READERS: usize = 80;
+const OF_READERS: usize = 120;
 
 /// The most reflections of a beam, which is given up after them, because total reflection can keep light inside for
 /// ever.
