@@ -154,7 +154,8 @@ mod tests {
             .into_iter()
             .map(|setting| setting.name)
             .collect();
-        assert_eq!(names, ["2", "1", "2#3", "2#2", "2#4"]);
+        // A name that stands for a facet of another tier gives way to a tier's short name.
+        assert_eq!(names, ["2", "1", "2#2", "C4", "2#3"]);
     }
 
     #[test]

@@ -232,7 +232,7 @@ fn deviations_of_facets_are_those_of_the_stone_within_their_errors() {
         let error = |facet: &str| made.errors.iter().find(|e| e.facet == facet).unwrap();
         let azimuth = error(&known.worst_azimuth.facet).azimuth_deg.unwrap();
         let slope = error(&known.worst_slope.facet).slope_deg;
-        assert!(azimuth > 1e-4 && azimuth < 0.05 && slope > 1e-4 && slope < 0.05, "{azimuth} {slope}");
+        assert!(azimuth > 1e-4 && azimuth < 0.1 && slope > 1e-4 && slope < 0.05, "{azimuth} {slope}");
         // A spread has the errors of its two ends, and of the median.
         let spreads = (truth.azimuth_spread_deg - known.azimuth_spread_deg).abs();
         assert!(spreads < 6.0 * azimuth, "{}: {spreads} {azimuth}", truth.class);

@@ -240,7 +240,7 @@ fn the_editor_says_what_it_takes_where_it_is_given_more() {
         );
     }
     desk.write("odd.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n");
-    assert!(desk.refused("info odd.obj", 1).starts_with("error: odd.obj:2: three numbers are expected"));
+    assert!(desk.refused("info odd.obj", 1).starts_with("error: odd.obj:2: 'zero' is not a number"));
     desk.write("none.stl", "solid x\nendsolid x\n");
     for line in ["info none.stl", "info --up y none.stl"] {
         assert!(desk.refused(line, 1).contains("none.stl: this holds no triangles"), "{line}");
