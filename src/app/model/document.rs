@@ -178,11 +178,16 @@ impl Document {
         let Self { work, mut history, mut origins, .. } = before;
         history.settle(&work);
         origins[work.origin].views = Some(views);
-        let own = self.origin().clone();
+        let own = DocumentOrigin { scene_from: origins.len(), ..self.origin().clone() };
         self.work.origin = origins.len();
         origins.push(own);
         history.settle(&self.work);
         (self.history, self.origins) = (history, origins);
+    }
+
+    /// Returns whether the origin of this number is that of a stone of the present scene, or of the present design.
+    pub fn is_of_this_scene(&self, origin: usize) -> bool {
+        self.origins.get(origin).is_some_and(|other| other.scene_from == self.origin().scene_from)
     }
 
     /// Keeps the views of the design with another origin, which undo or redo has replaced by the present one; returns the views
@@ -218,8 +223,9 @@ impl Document {
     /// file.
     pub fn take_up(&mut self, design: Design, copies: Copies, companions: Companions) {
         let was_laid = !self.has_moved_copies() && !self.is_changed();
-        let DocumentOrigin { laid, first, .. } = self.origin().clone();
-        self.origins.push(DocumentOrigin { laid, first, ..DocumentOrigin::new(design.clone(), None) });
+        let DocumentOrigin { laid, first, scene_from, .. } = self.origin().clone();
+        let begun = DocumentOrigin::new(design.clone(), None);
+        self.origins.push(DocumentOrigin { laid, first, scene_from, ..begun });
         let origin = self.origins.len() - 1;
         self.work = Work { design, copies, companions, mesh: None, origin, ..self.work.clone() };
         if was_laid {

@@ -25,6 +25,8 @@ pub struct DocumentOrigin {
     pub is_lost: bool,
     /// The views when another design took the place of this one.
     pub views: Option<ViewState>,
+    /// The number of the origin with which the scene of this design began: the same for all stones of a scene.
+    pub scene_from: usize,
 }
 
 impl DocumentOrigin {
@@ -40,6 +42,7 @@ impl DocumentOrigin {
             stamp,
             is_lost: false,
             views: None,
+            scene_from: 0,
         }
     }
 }

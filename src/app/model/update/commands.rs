@@ -163,11 +163,14 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             edits::note_meet_faults(model);
             // The step may have reordered the tiers.
             model.session.picking = None;
-            if model.document.work.origin != origin {
+            if !model.document.is_of_this_scene(origin) {
                 begin::come_back(model, tasks, origin);
                 edits::note_meet_faults(model);
-            } else if model.document.work.companions != beside {
-                // The step may have changed which stone of the scene is edited.
+            } else if model.document.work.origin != origin || model.document.work.companions != beside {
+                if model.document.work.origin != origin {
+                    // Both refer to the stone that was edited.
+                    (model.session.held, model.session.tier) = (None, None);
+                }
                 model.session.framing.follow(&model.document);
             }
         }
