@@ -50,23 +50,7 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
             signed(value - start, 4)
         );
     }
-    if !start.figures.is_empty() {
-        let _ = writeln!(text, "Limits");
-    }
-    for ((name, before), (_, after)) in start.figures.iter().zip(&outcome.best.figures) {
-        let (low, high) = search.objective().ends_of(name);
-        let [least, most] = [low, high].map(|end| rounded(end, 6));
-        let ends = match (low.is_finite(), high.is_finite()) {
-            (true, true) => format!("from {least} to {most}"),
-            (true, false) => format!("at least {least}"),
-            _ => format!("at most {most}"),
-        };
-        let _ = writeln!(
-            text,
-            "  {name:<38}{before:>12.4}{after:>18.4}{:>15}   {ends}",
-            signed(after - before, 4)
-        );
-    }
+    text.push_str(&limits(search, outcome));
     let [before, after] = outcome.audits.each_ref().map(|audit| audit.findings.len());
     let _ = writeln!(text, "Audit");
     let mut count = |name: &str, [before, after]: [usize; 2]| {
@@ -83,6 +67,30 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
             text,
             "Meets: all {corners} corners of four facets or more are kept; planes miss them by at most {after:.0e} girdle \
              radii, before by {before:.0e}"
+        );
+    }
+    text
+}
+
+/// Formats the figures that are limited, as rows of the table.
+fn limits(search: &DesignSearch, outcome: &SearchOutcome) -> String {
+    let start = search.objective().start();
+    let mut text = String::new();
+    if !start.figures.is_empty() {
+        let _ = writeln!(text, "Limits");
+    }
+    for ((name, before), (_, after)) in start.figures.iter().zip(&outcome.best.figures) {
+        let (low, high) = search.objective().ends_of(name);
+        let [least, most] = [low, high].map(|end| rounded(end, 6));
+        let ends = match (low.is_finite(), high.is_finite()) {
+            (true, true) => format!("from {least} to {most}"),
+            (true, false) => format!("at least {least}"),
+            _ => format!("at most {most}"),
+        };
+        let _ = writeln!(
+            text,
+            "  {name:<38}{before:>12.4}{after:>18.4}{:>15}   {ends}",
+            signed(after - before, 4)
         );
     }
     text

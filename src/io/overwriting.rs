@@ -114,7 +114,8 @@ fn put(content: &mut (impl Read + Seek), file: &mut File) -> io::Result<()> {
     file.flush()
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use super::*;
     use crate::io::atomic::{WriteError, write};

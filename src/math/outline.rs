@@ -159,7 +159,7 @@ mod tests {
     fn star(points: u32, inner: f64) -> Vec<(f64, f64)> {
         let at = |k: u32| {
             let (sin, cos) = (f64::from(k) * TAU / f64::from(2 * points)).sin_cos();
-            let radius = if k % 2 == 0 { 1.0 } else { inner };
+            let radius = if k.is_multiple_of(2) { 1.0 } else { inner };
             (radius * cos, radius * sin)
         };
         (0..2 * points).map(at).collect()

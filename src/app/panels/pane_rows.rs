@@ -75,74 +75,57 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 
 /// Draws the rows for the pane's size and the strengths of its effects.
 fn shape_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
-    let Liquid { size, corners, refraction, depth, dispersion, frost, light, .. } = liquid;
-    for (name, meaning, value, usual, range, unit) in [
-        (
-            "Pane width",
-            "The width of the pane, in percent of the view.",
-            &mut size.x,
-            first.size.x,
-            EXTENTS,
-            " %",
-        ),
-        (
-            "Pane height",
-            "The height of the pane, in percent of the view.",
-            &mut size.y,
-            first.size.y,
-            EXTENTS,
-            " %",
-        ),
-        (
-            "Corners",
-            "The radius of its corners, in percent of its shorter side.",
-            corners,
-            first.corners,
-            CORNERS,
-            " %",
-        ),
+    let Liquid { size, corners, .. } = liquid;
+    let width = "The width of the pane, in percent of the view.";
+    let height = "The height of the pane, in percent of the view.";
+    let radius = "The radius of its corners, in percent of its shorter side.";
+    for (name, meaning, value, usual, range) in [
+        ("Pane width", width, &mut size.x, first.size.x, EXTENTS),
+        ("Pane height", height, &mut size.y, first.size.y, EXTENTS),
+        ("Corners", radius, corners, first.corners, CORNERS),
+    ] {
+        let row = Row { step: 1.0, decimals: 0, speed: 0.2, unit: " %", ..Row::new(name, meaning, range) };
+        row.by_default(usual).show(ui, value);
+    }
+    strength_rows(liquid, first, ui);
+}
+
+/// Draws the rows for how strongly the pane changes what is behind it.
+fn strength_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
+    let Liquid { refraction, depth, dispersion, frost, light, .. } = liquid;
+    for (name, meaning, value, usual) in [
         (
             "Refraction",
             "Bends the background at the rim. In the traced pane it is the index, 1 to 1.5.",
             refraction,
             first.refraction,
-            STRENGTHS,
-            "",
         ),
         (
             "Pane depth",
             "The depth that the pane seems to have. In the traced pane it is the thickness.",
             depth,
             first.depth,
-            STRENGTHS,
-            "",
         ),
         (
             "Dispersion",
             "Separates red from blue. In the traced pane it sets the Abbe number, 55 at 100.",
             dispersion,
             first.dispersion,
-            STRENGTHS,
-            "",
         ),
         (
             "Frost",
             "Blurs the background toward the rim, unevenly. The traced pane is always clear.",
             frost,
             first.frost,
-            STRENGTHS,
-            "",
         ),
         (
             "Pane light",
             "The strength of shine, shade and rim. Around the traced pane it is the brightness of a lamp and a sky.",
             light,
             first.light,
-            STRENGTHS,
-            "",
         ),
     ] {
-        let row = Row { step: 1.0, decimals: 0, speed: 0.2, unit, ..Row::new(name, meaning, range) };
+        let row = Row { step: 1.0, decimals: 0, speed: 0.2, ..Row::new(name, meaning, STRENGTHS) };
         row.by_default(usual).show(ui, value);
     }
 }

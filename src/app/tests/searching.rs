@@ -110,6 +110,8 @@ fn the_outcome_is_taken_back_by_its_own_button() {
     bench.click("Start");
     bench.wait(|editor| matches!(state(editor), SearchState::Ended(_)));
     assert_ne!(*design(&bench), before);
+    bench.harness.get_by_label("Undo search").scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
     bench.click("Undo search");
     assert_eq!(*design(&bench), before);
     assert_eq!(steps(&bench), (false, true));

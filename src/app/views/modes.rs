@@ -38,16 +38,9 @@ impl Mode {
             return vec![];
         }
         let (eye, scope) = (*workspace.eye(pane), shows.scoped());
-        let takes_head = scope.as_ref().is_some_and(|scope| scope.takes_head);
-        let settings = &model.document.work.settings;
-        let head = settings.head;
-        let shows_background = matches!(shows, Shows::Render | Shows::Refraction);
-        let strength = if shows_background { settings.strength() } else { 1.0 };
-        let bounces = if shows == Shows::Render { settings.bounces } else { USUAL_BOUNCES };
-        let missing = settings.missing_background().filter(|_| shows_background);
         let overlay =
             workspace.overlay.clone().filter(|_| shows.takes_overlay() && workspace.overlay().is_some());
-        [
+        let of_view = [
             own.map(|_| {
                 let meaning = "This view has a tilt and a zoom of its own.";
                 mode("unlinked", meaning, ViewAction::Link(pane, true))
@@ -67,14 +60,28 @@ impl Mode {
                 let meaning = "Scopes show only the zone of each point's strongest light.";
                 mode("strongest exits", meaning, Command::Strongest)
             }),
-            (head > 0.0 && takes_head).then(|| {
-                let meaning = "The observer's head blocks light, here and in the figures.";
-                mode(format!("head {head:.1}°"), meaning, Edit::Setting(SettingChange::Head(0.0)))
-            }),
             (workspace.glare && !workspace.strongest && scope.is_some()).then(|| {
                 let meaning =
                     "Scopes also show the light that the outer surface reflects, as a camera records it.";
                 mode("with glare", meaning, Command::Glare)
+            }),
+        ];
+        of_view.into_iter().flatten().chain(Self::of_settings(model, shows)).collect()
+    }
+
+    /// Returns the modes of the settings of pictures that are on where a view shows this.
+    fn of_settings(model: &Model, shows: Shows) -> impl Iterator<Item = Self> {
+        let settings = &model.document.work.settings;
+        let head = settings.head;
+        let takes_head = shows.scoped().is_some_and(|scope| scope.takes_head);
+        let shows_background = matches!(shows, Shows::Render | Shows::Refraction);
+        let strength = if shows_background { settings.strength() } else { 1.0 };
+        let bounces = if shows == Shows::Render { settings.bounces } else { USUAL_BOUNCES };
+        let missing = settings.missing_background().filter(|_| shows_background);
+        let of_settings = [
+            (head > 0.0 && takes_head).then(|| {
+                let meaning = "The observer's head blocks light, here and in the figures.";
+                mode(format!("head {head:.1}°"), meaning, Edit::Setting(SettingChange::Head(0.0)))
             }),
             missing.map(missing_background),
             (bounces < USUAL_BOUNCES).then(|| {
@@ -91,10 +98,8 @@ impl Mode {
                     "Below 1, the refracted ray is mixed with the straight ray, which is not physics.";
                 mode(format!("strength {strength:.3}"), meaning, Edit::Setting(SettingChange::Strength(1.0)))
             }),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+        ];
+        of_settings.into_iter().flatten()
     }
 }
 

@@ -85,6 +85,7 @@ fn moved(even: &Even, frame: &[f64; NUMBERS], size: f64) -> Even {
 }
 
 /// Returns the frame with the least value of a function that is nearly quadratic (Newton's method, by differences).
+#[allow(clippy::needless_range_loop, reason = "a row and its column are filled together")]
 fn step(frame: &[f64; NUMBERS], of: &impl Fn(&[f64; NUMBERS]) -> Option<f64>) -> Option<[f64; NUMBERS]> {
     let at = |i: usize, a: f64, j: usize, b: f64| {
         let mut there = *frame;
