@@ -119,7 +119,7 @@ mod tests {
             }
             count += 1;
             let wanted = if command.get_name() == "edit" { &ALL[2..] } else { &ALL };
-            let missing: Vec<&&str> = wanted.iter().filter(|option| !is_there(*option)).collect();
+            let missing: Vec<&&str> = wanted.iter().filter(|option| !is_there(option)).collect();
             assert!(missing.is_empty(), "{}: {missing:?}", command.get_name());
         }
         assert!(count > 10, "{count}");

@@ -319,6 +319,8 @@ fn a_compromise_weighs_every_material_and_tilt() {
     goal.measure[0].material = Some(OneOrMore::More(materials));
     goal.measure[0].tilt = Some(OneOrMore::More(vec![0.0, 10.0]));
     goal.measure[0].may_lose = Some(0.0);
+    // Only the limits of the goal, none of the shape.
+    goal.new_findings = true;
     let objective = Objective::new(&brilliant(34.0, 41.0), &goal, false, (0.02, 0.02), &unwatched).unwrap();
     let start = objective.start();
     assert_eq!(start.values.len(), 6);

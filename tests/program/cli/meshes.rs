@@ -141,7 +141,7 @@ fn one_of_several_bodies_is_chosen_by_its_number_or_name_in_every_command() {
     );
     let refused = desk.refused("convert --scene two.obj both.obj", 2);
     assert!(refused.contains("--scene writes a scene file"), "{refused}");
-    desk.write("one.obj", &body("low", 1, 5));
+    desk.write("one.obj", body("low", 1, 5));
     let (_, printed, _) = desk.run("info --json one.obj");
     assert!(printed.contains("\"name\": \"low\"") && !printed.contains("bodies"), "{printed}");
     let (_, printed, _) = desk.run("info --json --part low two.obj");
