@@ -7,6 +7,10 @@ use std::cmp::Ordering;
 /// Widths or lengths count as equal if their ratio differs from 1 by less than this: a hundred roundings of f32.
 const EQUAL: f64 = 1e-5;
 
+/// A corner that lies off the line between its neighbours by less than this many extents of the outline is none: facets that end
+/// within a side of the girdle have corners there, which rounding puts inside of the outline or outside.
+const IN_LINE: f64 = 1e-9;
+
 /// Directions are almost equally narrow if their widths differ by less than this part. The noise of a scan makes one
 /// of them the narrowest, and that must not decide how long a stone is.
 const ALMOST: f64 = 5e-3;
@@ -77,7 +81,7 @@ pub struct Calipers {
 impl Calipers {
     /// Measures a convex outline with counter-clockwise corners, as [`hull`] returns it; `None` where it has no area.
     pub fn of(outline: &[DVec2]) -> Option<Self> {
-        let all = Self::square_to_sides(outline);
+        let all = Self::square_to_sides(&true_corners(outline));
         let width = all.iter().map(|found| found.width).fold(f64::INFINITY, f64::min);
         if !(width > 0.0 && width.is_finite()) {
             return None;
@@ -101,6 +105,7 @@ impl Calipers {
     /// is taken: that of the least square of the width divided by the length. So noise of 0.3 % changes width and length
     /// by little more.
     pub fn of_stone(outline: &[DVec2]) -> Option<Self> {
+        let outline = &true_corners(outline);
         let least = Self::narrow_and_long(outline)?;
         if fills_its_sides(outline, &least) {
             return Some(least);
@@ -174,6 +179,28 @@ impl Calipers {
         let long = narrow().filter(|found| found.length >= length - EQUAL * least);
         Some(Self { width, length, ..*long.max_by(Self::nearer_to_x)? })
     }
+}
+
+/// Returns an outline without corners that are due to rounding alone.
+fn true_corners(outline: &[DVec2]) -> Vec<DVec2> {
+    let [x, y] = [DVec2::X, DVec2::Y].map(|along| length(extent(outline, along)));
+    let near = IN_LINE * x.max(y);
+    let middle = outline.iter().sum::<DVec2>() / outline.len().max(1) as f64;
+    let away = |k: &usize| outline[*k].distance_squared(middle);
+    // The farthest corner is a true one.
+    let first = (0..outline.len()).max_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
+    let from_first = || outline.iter().copied().cycle().skip(first);
+    let mut kept: Vec<DVec2> = vec![];
+    for (p, next) in from_first().zip(from_first().skip(1)).take(outline.len()) {
+        let off = |from: &DVec2| match (next - from).try_normalize() {
+            Some(along) => along.perp_dot(p - from).abs(),
+            None => p.distance(*from),
+        };
+        if kept.last().is_none_or(|before| off(before) > near) {
+            kept.push(p);
+        }
+    }
+    kept
 }
 
 /// Returns whether an outline has a side on each side of its narrowest rectangle.
@@ -407,6 +434,32 @@ mod tests {
                 let off = (found.width - plain.width).abs().max((found.length - plain.length).abs());
                 assert!(off < 1e-2, "shape {index}: {found:?} {plain:?}");
             }
+        }
+    }
+
+    /// The outline of an oval that is narrower in an oblique direction than across its mirror line.
+    #[test]
+    fn a_corner_within_a_side_changes_no_width() {
+        let quarter = [
+            (1.0016, 0.0209),
+            (0.9795, 0.2955),
+            (0.8319, 0.7797),
+            (0.6006, 1.1193),
+            (0.3025, 1.3326),
+            (0.0693, 1.3983),
+        ];
+        let mirrored = |[x, y]: [f64; 2]| quarter.map(|(a, b)| DVec2::new(x * a, y * b));
+        let outline: Vec<DVec2> =
+            [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].into_iter().flat_map(mirrored).collect();
+        let of = |more: &[DVec2]| Calipers::of_stone(&hull([&outline, more].concat())).unwrap();
+        let plain = of(&[]);
+        assert!((plain.width - 2.0032).abs() < 1e-12, "{plain:?}");
+        let ends =
+            [1.0, -1.0].map(|y| [-0.035, 0.035].map(|x| DVec2::new(x, y * 1.3983 * (1.0 + f64::EPSILON))));
+        for within in [&ends[0][..], &ends[1], &ends.concat()] {
+            let found = of(within);
+            let off = (found.width - plain.width).abs().max((found.length - plain.length).abs());
+            assert!(off < 1e-12, "{found:?} {plain:?}");
         }
     }
 
