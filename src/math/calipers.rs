@@ -31,8 +31,9 @@ const TRUER: f64 = 0.5;
 /// difference of an ellipse whose length is 1.01 widths.
 const LONG: f64 = 0.01;
 
-/// A side shorter than this many widths may be a corner that was cut off, or that noise has split.
-const LEAST_SIDE: f64 = 0.05;
+/// A side shorter than this many widths may be a corner that was cut off, or a piece of a curve: one of a circle is 0.14
+/// widths long until it leans by [`LEANS`].
+const LEAST_SIDE: f64 = 0.3;
 
 /// A side leans from a rectangle by no more than this many widths: the noise of a scan.
 const LEANS: f64 = 5e-3;
