@@ -68,7 +68,7 @@ pub struct OptimiseArguments {
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
     /// Let an audit of the result find more than one of the given design, as the key new_findings of a goal file does. Otherwise small
-    /// facets, short edges and the girdle's thickness are limited too
+    /// facets, short edges, the girdle's thickness and the estimated class are limited too
     #[arg(long)]
     new_findings: bool,
     /// Treat the light as unpolarised at every surface

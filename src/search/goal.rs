@@ -18,7 +18,7 @@ pub struct Goal {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// True where an audit of the found design may find more than one of the given design. Otherwise a search also keeps facets and
-    /// edges from becoming tiny and the girdle about as thick as it is.
+    /// edges from becoming tiny, the girdle about as thick as it is, and the estimated class of a round brilliant of diamond.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub new_findings: bool,
     /// The measures that are weighed, at least one.

@@ -1,9 +1,12 @@
 //! What a search keeps of a design though its goal does not say so: no facet and no edge becomes tiny, the girdle stays about
-//! as thick, and an audit finds nothing that it did not find before.
+//! as thick, an audit finds nothing that it did not find before, and the estimated class stays.
 
 use super::goal::{AtLeastAtMost, Goal};
-use super::limits::{GIRDLE, NEW_FINDINGS, SHORTEST_EDGE, SMALLEST_FACET};
-use crate::cut::{Audit, FindingKind, NEAR_MISS, SMALL_FACET, SheetFigures, SmallestParts};
+use super::limits::{GIRDLE, LOWER_CLASS, NEW_FINDINGS, SHORTEST_EDGE, SMALLEST_FACET};
+use crate::cut::{
+    Audit, ClassEstimate, CutClass, FindingKind, NEAR_MISS, SMALL_FACET, SheetFigures, SmallestParts,
+};
+use crate::measure::brilliant_proportions;
 use crate::scene::{Specimen, Stone};
 use std::collections::BTreeMap;
 
@@ -32,7 +35,9 @@ pub(super) fn usual_limits(goal: &Goal, stone: &Stone) -> BTreeMap<String, AtLea
         let (least, most) = ((girdle - GIRDLE_WITHIN).max(0.5 * girdle), girdle + GIRDLE_WITHIN);
         limits.insert(GIRDLE.to_owned(), AtLeastAtMost { at_least: Some(least), at_most: Some(most) });
     }
-    limits.insert(NEW_FINDINGS.to_owned(), AtLeastAtMost { at_least: None, at_most: Some(0.0) });
+    for name in [NEW_FINDINGS, LOWER_CLASS] {
+        limits.insert(name.to_owned(), AtLeastAtMost { at_least: None, at_most: Some(0.0) });
+    }
     let is_end = |limit: &AtLeastAtMost| limit.at_least.or(limit.at_most).is_some();
     limits.retain(|name, limit| !goal.limit.contains_key(name) && is_end(limit));
     limits
@@ -58,4 +63,12 @@ impl FindingCounts {
 /// Returns the audit of a specimen; one without findings where it is no convex stone.
 pub(super) fn audit_of(specimen: &Specimen) -> Audit {
     specimen.audit().unwrap_or_default()
+}
+
+/// Returns the class of a specimen, estimated after the ranges that GIA publishes for round brilliants of diamond; `None` for any
+/// other stone.
+pub(super) fn estimated_class(specimen: &Specimen) -> Option<CutClass> {
+    let is_diamond = specimen.material.name.eq_ignore_ascii_case("diamond");
+    let proportions = brilliant_proportions(specimen.stone().ok().filter(|_| is_diamond)?).ok()?;
+    Some(ClassEstimate::after_gia(&proportions).class)
 }

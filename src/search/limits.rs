@@ -2,8 +2,8 @@
 
 use super::appraisal::SearchError;
 use super::goal::{AtLeastAtMost, Goal};
-use super::kept_shape::{FindingCounts, audit_of, usual_limits};
-use crate::cut::{Design, Proportion, ProportionReport, SheetFigures, SmallestParts};
+use super::kept_shape::{FindingCounts, audit_of, estimated_class, usual_limits};
+use crate::cut::{CutClass, Design, Proportion, ProportionReport, SheetFigures, SmallestParts};
 use crate::optics::{critical_angle, line};
 use crate::scene::{Specimen, Stone};
 
@@ -15,13 +15,16 @@ use crate::scene::{Specimen, Stone};
 /// - `smallest_facet`: the area of the smallest facet as a part of the median area of the facets of its zone;
 /// - `shortest_edge`: the length of the shortest edge as a part of the width, without the upright ones of the girdle;
 /// - `new_findings`: the number of findings of an audit beyond those of the design before the search, kind by kind;
+/// - `lower_class`: the number of classes by which the estimate for round brilliants of diamond is below that of the design
+///   before the search; 0 for what has no estimate;
 /// - the ratios of a cutter's sheet ([`SheetFigures`]), all measured on the stone.
-pub const LIMIT_NAMES: [&str; 12] = [
+pub const LIMIT_NAMES: [&str; 13] = [
     "above_critical",
     "yield",
     SMALLEST_FACET,
     SHORTEST_EDGE,
     NEW_FINDINGS,
+    LOWER_CLASS,
     "length_to_width",
     "table_to_width",
     "pavilion_to_width",
@@ -35,6 +38,7 @@ pub const LIMIT_NAMES: [&str; 12] = [
 pub(super) const SMALLEST_FACET: &str = "smallest_facet";
 pub(super) const SHORTEST_EDGE: &str = "shortest_edge";
 pub(super) const NEW_FINDINGS: &str = "new_findings";
+pub(super) const LOWER_CLASS: &str = "lower_class";
 pub(super) const GIRDLE: &str = "girdle_to_width";
 
 /// A limit on the geometry.
@@ -56,6 +60,8 @@ enum LimitKind {
     Smallest(fn(&SmallestParts) -> f64),
     /// Findings of an audit beyond these.
     NewFindings(FindingCounts),
+    /// Classes below this one.
+    LowerClass(Option<CutClass>),
 }
 
 impl GeometryLimit {
@@ -77,12 +83,13 @@ impl GeometryLimit {
             LimitKind::AboveCritical(critical_deg) => flattest_deg(stone) - critical_deg,
             LimitKind::Smallest(of) => 0.01 * of(&SmallestParts::of(&stone.polytope)),
             LimitKind::NewFindings(before) => before.new_in(&audit_of(specimen)) as f64,
+            LimitKind::LowerClass(before) => before.map_or(0.0, |before| classes_below(before, specimen)),
         }
     }
 
     /// Returns whether the figure changes in steps, so that it has no slope.
     pub fn is_stepped(&self) -> bool {
-        matches!(self.kind, LimitKind::NewFindings(_))
+        matches!(self.kind, LimitKind::NewFindings(_) | LimitKind::LowerClass(_))
     }
 }
 
@@ -97,6 +104,7 @@ impl LimitKind {
             SMALLEST_FACET => return Ok(Self::Smallest(|parts| parts.facet_percent)),
             SHORTEST_EDGE => return Ok(Self::Smallest(|parts| parts.edge_percent)),
             NEW_FINDINGS => return Ok(Self::NewFindings(FindingCounts::of(&audit_of(specimen)))),
+            LOWER_CLASS => return Ok(Self::LowerClass(estimated_class(specimen))),
             "yield" => |figures| figures.volume_to_width_cubed,
             "length_to_width" => |figures| figures.length_to_width,
             "table_to_width" => |figures| figures.table_to_width,
@@ -114,6 +122,11 @@ impl LimitKind {
         let unit = if name == "yield" { ratio(&figures(stone)) } else { 1.0 };
         Ok(Self::Ratio(ratio, unit))
     }
+}
+
+/// Returns the number of classes by which a stone is estimated below a class; 0 for one without an estimate.
+fn classes_below(before: CutClass, specimen: &Specimen) -> f64 {
+    estimated_class(specimen).map_or(0.0, |now| f64::from((now as u8).saturating_sub(before as u8)))
 }
 
 fn figures(stone: &Stone) -> SheetFigures {

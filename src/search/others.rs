@@ -2,11 +2,12 @@
 //! one by another.
 
 use super::appraisal::{GoalValue, SearchError};
+use super::kept_shape::estimated_class;
 use super::objective::PARTS;
 use super::outcome::SearchOutcome;
 use super::run::DesignSearch;
-use crate::cut::{ClassEstimate, CutClass, Design};
-use crate::measure::{Interval, MeasureName, MeasureSettings, brilliant_proportions};
+use crate::cut::{CutClass, Design};
+use crate::measure::{Interval, MeasureName, MeasureSettings};
 use crate::optics::line;
 use crate::render::Sweep;
 use crate::scene::{Specimen, Viewpoint};
@@ -75,11 +76,6 @@ impl OtherMeasure {
 /// Returns the classes of the design before the search and of the found one, estimated after the ranges that GIA
 /// publishes for round brilliants of diamond; `None` where one of them is no such stone.
 pub fn estimated_classes(search: &DesignSearch, outcome: &SearchOutcome) -> Option<[CutClass; 2]> {
-    let class = |design: &Design| {
-        let specimen = Specimen::new(design.clone()).ok()?;
-        let is_diamond = specimen.material.name.eq_ignore_ascii_case("diamond");
-        let proportions = brilliant_proportions(specimen.stone().ok().filter(|_| is_diamond)?).ok()?;
-        Some(ClassEstimate::after_gia(&proportions).class)
-    };
+    let class = |design: &Design| estimated_class(&Specimen::new(design.clone()).ok()?);
     Some([class(search.objective().design())?, class(&outcome.design)?])
 }

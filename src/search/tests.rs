@@ -2,10 +2,10 @@
 
 use super::{
     AtLeastAtMost, DesignSearch, Goal, GoalMaterial, Objective, OneOrMore, SearchError, SearchOptions,
-    SearchProgress, VariedNumber,
+    SearchProgress, VariedNumber, estimated_classes,
 };
 use crate::cut::{
-    Crown, Cut, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
+    Crown, Cut, CutClass, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
 };
 use crate::measure::MeasureSettings;
 use crate::optics::line;
@@ -266,6 +266,24 @@ fn limits_of_geometry_are_kept() {
     let (of_free, of_held) = (free.best.total.middle(), held.best.total.middle());
     assert!(of_held < of_free - 1e-3, "limits cost something: {of_free} {of_held} {:?}", free.values);
     assert!(held.best.total.middle() >= search.objective().start().total.middle());
+}
+
+/// A low crown returns more light, and is a class or two below the best.
+#[test]
+fn a_search_lowers_the_estimated_class_only_where_it_may() {
+    let mut goal = goal(&[("return-cos2", 1.0)]);
+    let design = Design { material: MaterialRef::Name("diamond".to_owned()), ..brilliant(34.5, 40.8) };
+    goal.vary.remove("pavilion_angle");
+    let classes = |goal: &Goal| {
+        let (search, outcome) = searched(&design, goal);
+        assert!(outcome.best.total.middle() > search.objective().start().total.middle(), "{outcome:?}");
+        estimated_classes(&search, &outcome).unwrap()
+    };
+    let [before, after] = classes(&goal);
+    assert!(before == CutClass::Excellent && after == before, "{before} {after}");
+    goal.limit.insert("lower_class".to_owned(), AtLeastAtMost { at_least: None, at_most: Some(4.0) });
+    let [before, after] = classes(&goal);
+    assert!(after > before, "{before} {after}");
 }
 
 /// A goal of the most leakage loses all return, unless a limit keeps the return.
