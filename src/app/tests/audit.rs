@@ -151,8 +151,6 @@ fn the_list_follows_the_design_and_says_that_there_are_no_candidates() {
     bench.choose("View", "Table of tiers");
     let before = bench.editor().model.session.audit.found.clone();
     // A steeper main opens other edges.
-    bench.harness.get_by_label("Angle of C1").scroll_to_me();
-    bench.harness.run_steps(SCROLLED);
     bench.type_number("Angle of C1", "37.3");
     audited(&mut bench);
     assert_ne!(bench.editor().model.session.audit.found, before);

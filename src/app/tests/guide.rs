@@ -195,8 +195,6 @@ fn an_emerald_cut_from_a_block_its_sheet_and_a_step_at_the_bench() {
     let mut bench = window("block.toml", &Bench::small());
     build(&mut bench);
     bench.harness.state_mut().model.document.work.design.name = "Emerald cut".to_owned();
-    bench.harness.get_by_label("Select P6").scroll_to_me();
-    bench.harness.run_steps(SCROLLED);
     bench.click("Select P6");
     bench.harness.key_press(egui::Key::Num0);
     take(&mut bench, "emerald");

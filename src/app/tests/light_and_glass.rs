@@ -105,8 +105,6 @@ fn a_gem_has_the_same_rows_under_a_heading() {
     let mut bench = bench("tolkowsky");
     assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Index").is_none(), "folded at first");
     let before = bench.editor().model.document.work.design.material.clone();
-    bench.harness.get_by_label("Index and colour").scroll_to_me();
-    bench.harness.run_steps(super::SCROLLED);
     bench.click("Index and colour");
     bench.harness.run_steps(super::SCROLLED);
     bench.type_number("Index", "1.9");
@@ -128,8 +126,6 @@ fn the_colour_of_a_gem_is_picked_and_stands_in_its_saved_cut_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
     let mut bench = bench("tolkowsky");
-    bench.harness.get_by_label("Index and colour").scroll_to_me();
-    bench.harness.run_steps(super::SCROLLED);
     bench.click("Index and colour");
     bench.harness.run_steps(super::SCROLLED);
     let before = bench.editor().model.document.specimen().material.clone();

@@ -211,12 +211,22 @@ impl Bench {
         self.harness.run_steps(2);
     }
 
-    /// Clicks the widget with this label. In a dialog, which may be higher than the window, it is scrolled into sight first.
-    pub fn click(&mut self, label: &str) {
-        if self.editor().model.session.dialog.is_some() {
-            self.harness.get_by_label(label).scroll_to_me();
-            self.harness.run_steps(SCROLLED);
+    /// Scrolls a widget into sight, until it is at rest. A click outside of what is in sight would go to another widget.
+    fn reveal(&mut self, find: impl for<'a> Fn(&'a Harness<'static, Editor>) -> egui_kittest::Node<'a>) {
+        find(&self.harness).scroll_to_me();
+        self.harness.run_steps(2);
+        for _ in 0..SCROLLED {
+            let before = find(&self.harness).rect();
+            self.harness.step();
+            if find(&self.harness).rect() == before {
+                return;
+            }
         }
+    }
+
+    /// Clicks the widget with this label, scrolled into sight first.
+    pub fn click(&mut self, label: &str) {
+        self.reveal(|harness| harness.get_by_label(label));
         self.harness.get_by_label(label).click();
         self.harness.run_steps(2);
     }
@@ -241,8 +251,9 @@ impl Bench {
         self.harness.run_steps(3);
     }
 
-    /// Types a number into the field of this name.
+    /// Types a number into the field of this name, scrolled into sight first.
     pub fn type_number(&mut self, name: &str, number: &str) {
+        self.reveal(|harness| harness.get_by_role_and_label(egui::Role::SpinButton, name));
         let field = self.harness.get_by_role_and_label(egui::Role::SpinButton, name);
         field.focus();
         self.harness.run_steps(2);

@@ -63,17 +63,8 @@ fn half_width(bench: &Bench) -> f64 {
 
 /// Unfolds the rows for the numbers of the ring.
 fn unfold(bench: &mut Bench) {
-    bench.harness.get_by_label("Numbers of the ring").scroll_to_me();
-    bench.harness.run_steps(super::SCROLLED);
     bench.click("Numbers of the ring");
     bench.harness.run_steps(super::SCROLLED);
-}
-
-/// Types a number into the field of this name, scrolled into sight.
-fn type_into(bench: &mut Bench, name: &str, number: &str) {
-    bench.harness.get_by_role_and_label(egui::Role::SpinButton, name).scroll_to_me();
-    bench.harness.run_steps(super::SCROLLED);
-    bench.type_number(name, number);
 }
 
 /// Asserts that each seat of the ring holds one stone, as large as the seat.
@@ -189,8 +180,8 @@ fn a_number_of_a_ring_makes_other_metal_in_one_step_of_undo() {
     let before = (half_width(&bench), ring(&bench).clone(), work(&bench).copies.clone());
     unfold(&mut bench);
     assert!(bench.harness.query_by_label("Small stones").is_none(), "this style has none");
-    type_into(&mut bench, "Band width", "6.2");
-    type_into(&mut bench, "Band thickness", "2.4");
+    bench.type_number("Band width", "6.2");
+    bench.type_number("Band thickness", "2.4");
     bench.wait(has_followed);
     assert!((half_width(&bench) - 3.1).abs() < 0.05, "{}", half_width(&bench));
     // Before, the head was wider than the band.
@@ -226,7 +217,7 @@ fn numbers_that_make_no_ring_are_explained_and_the_metal_stays() {
     let mut bench_ = bench("four-prong");
     let before = half_width(&bench_);
     unfold(&mut bench_);
-    type_into(&mut bench_, "Comfort", "1.5");
+    bench_.type_number("Comfort", "1.5");
     bench_.wait(|editor| editor.model.ring_fault().is_some());
     let said = bench_.harness.query_by_label_contains("The metal stays as it was. Comfort: the inside rises");
     assert!(said.is_some() && half_width(&bench_) == before && !is_fitted(&bench_.editor().model));
@@ -244,13 +235,13 @@ fn a_ring_follows_its_stones_and_holds_as_many_small_ones_as_fit() {
     let mut bench_ = bench("halo-ring");
     assert_seated(&bench_);
     let main = work(&bench_).design.diameter_mm;
-    type_into(&mut bench_, "Diameter", "8.4");
+    bench_.type_number("Diameter", "8.4");
     bench_.wait(has_followed);
     let count = work(&bench_).companions.stones.len();
     assert!(main < 7.0 && count > 16, "a wider stone has a longer halo, not {count}");
     assert_seated(&bench_);
     unfold(&mut bench_);
-    type_into(&mut bench_, "Small stones", "1.2");
+    bench_.type_number("Small stones", "1.2");
     bench_.wait(has_followed);
     let small = &work(&bench_).companions.stones;
     assert!(small.len() > count && small.iter().all(|stone| stone.specimen.design.diameter_mm == 1.2));
@@ -260,11 +251,9 @@ fn a_ring_follows_its_stones_and_holds_as_many_small_ones_as_fit() {
         let design = &small[0].specimen.design;
         format!("Edit {} × diamond, 1.20 mm, {}", small.len(), design.name)
     };
-    bench_.harness.get_by_label(&label).scroll_to_me();
-    bench_.harness.run_steps(super::SCROLLED);
     bench_.click(&label);
     assert!(is_fitted(&bench_.editor().model));
-    type_into(&mut bench_, "Diameter", "1.6");
+    bench_.type_number("Diameter", "1.6");
     bench_.wait(has_followed);
     assert_eq!(ring(&bench_).made_of.ring.small_diameter_mm, 1.6);
     assert_seated(&bench_);
