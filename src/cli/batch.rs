@@ -34,12 +34,16 @@ pub fn each_file(
     mut work: impl FnMut(&Path) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let mut failed: Vec<(&PathBuf, Failure)> = Vec::new();
+    let mut last: Option<Failure> = None;
     for file in files {
-        let Err(failure) = work(file) else { continue };
-        let is_again = failed.last().is_some_and(|(_, last)| *last == failure);
-        if files.len() == 1 || is_again || ends_all(&failure) {
+        let Err(failure) = work(file) else {
+            last = None;
+            continue;
+        };
+        if files.len() == 1 || last.as_ref() == Some(&failure) || ends_all(&failure) {
             return Err(failure);
         }
+        last = Some(failure.clone());
         report_failure(file, &failure, is_json)?;
         failed.push((file, failure));
     }
@@ -113,6 +117,10 @@ mod tests {
             let failures = [Some(first.clone()), Some(first.clone()), None];
             assert_eq!(run(&failures), (tried, Err(first)));
         }
+        // The same words after a file that is done are about that file.
+        let same = Failure::Usage("the same for two".into());
+        let (tried, done) = run(&[Some(same.clone()), None, Some(same), None]);
+        assert_eq!((tried, done), (4, Err(Failure::Usage("2 of 4 files failed: 0.asc, 2.asc".into()))));
         // One file alone fails in its own words.
         let alone = Failure::Input("no stone".into());
         assert_eq!(run(&[Some(alone.clone())]), (1, Err(alone)));

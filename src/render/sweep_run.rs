@@ -2,16 +2,16 @@
 
 use super::renderer::RenderError;
 use super::sweep::{Sweep, SweepError, SweptStone};
-use crate::trace::{Stopped, Watch};
-use rayon::prelude::*;
+use crate::trace::{Stopped, Watch, at_once};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The number of points that are measured before they are handed out.
 const AT_ONCE: usize = 64;
 
-/// The parts of the memory of beams of which one belongs to each point. All points are measured with the smallest part
-/// first, on all cores. Those whose light needs more beams are measured again with a greater part and fewer at a time. So
-/// no point depends on the number of cores, and all of them together need little more memory than one.
+/// The parts of the memory of beams of which one belongs to each point, and the number of points that are measured at once.
+/// All points are measured with the smallest part first. Those whose light needs more beams are measured again with a greater
+/// part and fewer at a time. So no point depends on the number of cores, and all of them together need little more memory than
+/// one.
 const PARTS: [usize; 3] = [16, 4, 1];
 
 impl Sweep {
@@ -53,13 +53,11 @@ impl Sweep {
             }
             found
         };
-        let mut found: Vec<_> = points.par_iter().map(|&point| measured(point, PARTS[0])).collect();
+        let mut found = at_once(PARTS[0], points, |&point| measured(point, PARTS[0]));
         for parts in &PARTS[1..] {
             let again: Vec<usize> = (0..points.len()).filter(|&place| needs_more(&found[place])).collect();
-            for places in again.chunks(*parts) {
-                let anew: Vec<_> = places.par_iter().map(|&place| measured(points[place], *parts)).collect();
-                places.iter().zip(anew).for_each(|(&place, anew)| found[place] = anew);
-            }
+            let anew = at_once(*parts, &again, |&place| measured(points[place], *parts));
+            again.into_iter().zip(anew).for_each(|(place, anew)| found[place] = anew);
         }
         found
     }

@@ -11,8 +11,7 @@ use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
 use crate::scene::{Specimen, Stone};
-use crate::trace::Watch;
-use rayon::prelude::*;
+use crate::trace::{Watch, at_once};
 
 /// The part of a number's range by which it is changed for the derivatives of the geometry.
 const GEOMETRY_STEP: f64 = 1e-4;
@@ -20,8 +19,8 @@ const GEOMETRY_STEP: f64 = 1e-4;
 /// The part of a number's range by which it is changed to test whether it keeps all meets.
 const MEET_STEP: f64 = 0.01;
 
-/// The parts of the memory of beams of which one belongs to a view of a design, because each core appraises another one.
-pub(super) const PARTS: usize = 4;
+/// The parts of the memory of beams of which one belongs to a view of a design, and the most views that are measured at once.
+pub(super) const PARTS: usize = 8;
 
 /// A goal for one design.
 pub struct Objective {
@@ -181,16 +180,26 @@ impl Objective {
             }
             _ => None,
         };
-        let measured: Vec<(SweptStone, Vec<Vec<f64>>)> = sweeps
-            .par_iter()
-            .zip(&self.views)
-            .map(|(sweep, view)| taken(sweep, view, changes.as_ref(), watch))
-            .collect::<Result<_, _>>()?;
+        let views: Vec<_> = sweeps.iter().zip(&self.views).collect();
+        let measured = at_once(self.views_at_once(), &views, |(sweep, view)| {
+            taken(sweep, view, changes.as_ref(), watch)
+        });
+        let measured = measured.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut appraisal = self.summed(&measured, figures)?;
         if changes.is_some() {
             appraisal.slopes = Some(self.slopes(places, &measured));
         }
         Ok(appraisal)
+    }
+
+    /// Returns the number of views of a design that are measured at once.
+    fn views_at_once(&self) -> usize {
+        self.views.len().clamp(1, PARTS)
+    }
+
+    /// Returns the number of designs that may be appraised at once, so that the views of all have memory.
+    pub(super) fn designs_at_once(&self) -> usize {
+        PARTS / self.views_at_once()
     }
 
     /// Returns the limited figures of a design that keeps its meets.

@@ -1,5 +1,7 @@
 //! The search: scatters designs over all ranges first, and then climbs from the best of them.
 
+mod snap;
+
 use super::appraisal::{Appraisal, SearchError};
 use super::goal::Goal;
 use super::kept_shape::audit_of;
@@ -9,8 +11,7 @@ use super::objective::Objective;
 use super::outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 use crate::cut::Design;
 use crate::scene::Specimen;
-use crate::trace::{Watch, unwatched};
-use rayon::prelude::*;
+use crate::trace::{Watch, at_once};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -200,18 +201,19 @@ impl DesignSearch {
         trials.note(&start, self.objective.start());
         let mut tops = self.tops(&trials, scattered, start);
         if has_slopes {
-            let climbed = distinct(&tops, SAME_TOP).into_par_iter().take(climbs).filter_map(|from| {
-                let places = climb(&trials, &from, climbing);
+            let mut starts = distinct(&tops, SAME_TOP);
+            starts.truncate(climbs);
+            let climbed = at_once(self.objective.designs_at_once(), &starts, |from| {
+                let places = climb(&trials, from, climbing);
                 Some((merit(&trials.near(&places, false)?), places))
             });
-            let climbed: Vec<(f64, Vec<f64>)> = climbed.collect();
-            tops.extend(climbed);
+            tops.extend(climbed.into_iter().flatten());
             // The best design on the way may be better than the end of a climb.
             tops.extend(trials.best().map(|(places, total)| (total, places)));
         }
-        distinct(&tops, SAME_TOP).par_iter().take(FELT_TOPS).for_each(|top| {
-            feel(&trials, top, FELT_STEP, feeling);
-        });
+        let mut starts = distinct(&tops, SAME_TOP);
+        starts.truncate(FELT_TOPS);
+        at_once(self.objective.designs_at_once(), &starts, |top| feel(&trials, top, FELT_STEP, feeling));
         if let Some(step) = self.options.angle_step_deg {
             trials.snap(step, self.snapping());
         }
@@ -235,7 +237,8 @@ impl DesignSearch {
             let (mut found, mut rest, mut count) = (vec![], places.as_slice(), FIRST_BATCH);
             while !rest.is_empty() {
                 let (batch, later) = rest.split_at(count.min(rest.len()));
-                let batch: Vec<(f64, Vec<f64>)> = batch.par_iter().filter_map(tried).collect();
+                let batch = at_once(self.objective.designs_at_once(), batch, tried);
+                let batch: Vec<(f64, Vec<f64>)> = batch.into_iter().flatten().collect();
                 // The most promising design is measured finely at once, so that a better design is shown early.
                 let promising = batch.iter().max_by(|a, b| a.0.total_cmp(&b.0));
                 if let Some((_, places)) =
@@ -334,55 +337,6 @@ impl Trials<'_> {
         self.record().best.as_ref().map(|(places, found)| (places.clone(), found.total.middle()))
     }
 
-    /// Replaces the best so far by the best design near it whose angles are multiples of a step: its angles are
-    /// rounded, and then each is moved by a step either way as long as that is better, but no more than `most`
-    /// designs are appraised. A search that was stopped only rounds the angles, and moves them by a step where that breaks a
-    /// limit.
-    fn snap(&self, step: f64, most: usize) {
-        let objective = &self.search.objective;
-        let Some((best, _)) = self.best() else { return };
-        let cut = &objective.design().cut;
-        let on_scale = |number: &VariedNumber, place: f64| match number.is_angle(cut) {
-            true => number.snapped(place, step).unwrap_or(place),
-            false => place,
-        };
-        let snapped = |places: &[f64]| -> Vec<f64> {
-            objective.numbers().iter().zip(places).map(|(number, &place)| on_scale(number, place)).collect()
-        };
-        let mut found: Option<(Vec<f64>, Appraisal)> = None;
-        let mut next = vec![snapped(&best)];
-        let is_stopped = self.stopped.load(Ordering::Relaxed);
-        let mut left = if is_stopped { 1 + 2 * best.len() } else { most };
-        let appraised = |places: &Vec<f64>| {
-            let found = match is_stopped {
-                true => objective.appraise(places, self.search.options.unresolved, false, &unwatched).ok(),
-                false => self.near(places, false),
-            };
-            Some((places.clone(), found?))
-        };
-        while !next.is_empty() && left > 0 {
-            next.truncate(left);
-            left -= next.len();
-            let tried: Vec<(Vec<f64>, Appraisal)> = next.par_iter().filter_map(appraised).collect();
-            let top = tried.into_iter().max_by(|a, b| merit(&a.1).total_cmp(&merit(&b.1)));
-            let Some(top) = top else { break };
-            if found.as_ref().is_some_and(|found| merit(&top.1) <= merit(&found.1)) {
-                break;
-            }
-            if is_stopped && top.1.keeps_limits() {
-                found = Some(top);
-                break;
-            }
-            next = neighbours(objective.numbers(), &top.0, step, &on_scale);
-            found = Some(top);
-        }
-        // A search that was stopped while it rounded begins again.
-        if !is_stopped && self.stopped.load(Ordering::Relaxed) {
-            return self.snap(step, most);
-        }
-        self.record().best = found.filter(|(_, appraisal)| appraisal.keeps_limits());
-    }
-
     fn appraise(&self, places: &[f64], unresolved: f64, with_slopes: bool) -> Option<Appraisal> {
         if self.stopped.load(Ordering::Relaxed) {
             return None;
@@ -434,25 +388,6 @@ impl Trials<'_> {
     fn record(&self) -> std::sync::MutexGuard<'_, Record> {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// Returns the places that are one step of an angle away, in each angle and either way.
-fn neighbours(
-    numbers: &[VariedNumber],
-    places: &[f64],
-    step: f64,
-    on_scale: &dyn Fn(&VariedNumber, f64) -> f64,
-) -> Vec<Vec<f64>> {
-    let beside = |(k, number): (usize, &VariedNumber)| {
-        let by = step / (number.most - number.least);
-        [-by, by].map(|by| {
-            let mut places = places.to_vec();
-            places[k] = on_scale(number, (places[k] + by).clamp(0.0, 1.0));
-            places
-        })
-    };
-    let all = numbers.iter().enumerate().flat_map(beside);
-    all.filter(|other| other.as_slice() != places).collect()
 }
 
 /// Returns the total less a penalty for missed limits.

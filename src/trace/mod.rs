@@ -1,6 +1,7 @@
 //! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share Fresnel's equations, the
 //! stone, the view and the guess of the next facet, which each of them verifies in its own way.
 
+mod at_once;
 pub mod beam;
 mod dispersed_ray;
 pub mod environment;
@@ -16,6 +17,7 @@ mod scope_shot;
 pub mod shared_tail;
 pub mod tail;
 
+pub use at_once::at_once;
 pub use dispersed_ray::DispersedRay;
 pub use scope_shot::ScopeShot;
 use std::ops::ControlFlow;

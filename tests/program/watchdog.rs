@@ -10,6 +10,9 @@ use std::time::{Duration, Instant};
 /// How long all threads of a program sleep before it counts as stuck. No command waits this long for a file or a driver.
 const STILL: Duration = Duration::from_secs(20);
 
+/// The processor time, in hundredths of a second, after which a program counts as endless. No line of a test takes a tenth of it.
+const MOST_TICKS: u64 = 60_000;
+
 /// What one look at the threads of a process shows.
 #[derive(PartialEq)]
 struct Sighting {
@@ -59,10 +62,10 @@ fn who_waits(process: u32) -> String {
     report
 }
 
-/// Waits until a program ends, or until all of its threads wait for ever.
+/// Waits until a program ends, until all of its threads wait for ever, or until it has worked for [`MOST_TICKS`].
 ///
 /// # Errors
-/// Returns which threads wait for what where the program would never end; it has been killed then.
+/// Returns what the threads do where the program would never end; it has been killed then.
 pub fn ended(program: &mut Child) -> Result<ExitStatus, String> {
     let (mut last, mut since) = (sighting(program.id()), Instant::now());
     loop {
@@ -70,9 +73,10 @@ pub fn ended(program: &mut Child) -> Result<ExitStatus, String> {
             return Ok(status);
         }
         let now = sighting(program.id());
-        if now != last || !now.all_sleep {
+        let is_endless = now.ticks > MOST_TICKS;
+        if !is_endless && (now != last || !now.all_sleep) {
             (last, since) = (now, Instant::now());
-        } else if since.elapsed() > STILL {
+        } else if is_endless || since.elapsed() > STILL {
             let report = who_waits(program.id());
             program.kill().unwrap();
             program.wait().unwrap();

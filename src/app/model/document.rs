@@ -173,6 +173,11 @@ impl Document {
         self.history = History::new(self.work.clone());
     }
 
+    /// Takes the copies and companions as they were opened or last written as a scene, before what is there now.
+    pub fn begin_laid(&mut self, copies: Copies, companions: Companions) {
+        self.origin_mut().laid = (copies, companions);
+    }
+
     /// Goes on from another document, whose views are given: this one becomes the next step of undo after that one.
     pub fn go_on_from(&mut self, before: Self, views: ViewState) {
         let Self { work, mut history, mut origins, .. } = before;

@@ -68,6 +68,9 @@ pub struct KeptScene {
     /// The companions of the copies; autosaves of earlier versions have none.
     #[serde(default)]
     pub companions: KeptCompanions,
+    /// The copies and their companions as they were opened or last written as a scene, where they have been moved since.
+    #[serde(default)]
+    pub laid: Option<(Copies, KeptCompanions)>,
     /// The settings of pictures; autosaves of earlier versions have none.
     #[serde(default)]
     pub settings: RenderSettings,

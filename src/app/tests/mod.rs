@@ -211,14 +211,22 @@ impl Bench {
         self.harness.run_steps(2);
     }
 
+    /// Returns the widget of this name, which may have to have a role.
+    fn named<'a>(&'a self, role: Option<egui::Role>, name: &'a str) -> egui_kittest::Node<'a> {
+        match role {
+            Some(role) => self.field(role, name),
+            None => self.harness.get_by_label(name),
+        }
+    }
+
     /// Scrolls a widget into sight, until it is at rest. A click outside of what is in sight would go to another widget.
-    fn reveal(&mut self, find: impl for<'a> Fn(&'a Harness<'static, Editor>) -> egui_kittest::Node<'a>) {
-        find(&self.harness).scroll_to_me();
+    fn reveal(&mut self, role: Option<egui::Role>, name: &str) {
+        self.named(role, name).scroll_to_me();
         self.harness.run_steps(2);
         for _ in 0..SCROLLED {
-            let before = find(&self.harness).rect();
+            let before = self.named(role, name).rect();
             self.harness.step();
-            if find(&self.harness).rect() == before {
+            if self.named(role, name).rect() == before {
                 return;
             }
         }
@@ -226,7 +234,7 @@ impl Bench {
 
     /// Clicks the widget with this label, scrolled into sight first.
     pub fn click(&mut self, label: &str) {
-        self.reveal(|harness| harness.get_by_label(label));
+        self.reveal(None, label);
         self.harness.get_by_label(label).click();
         self.harness.run_steps(2);
     }
@@ -253,7 +261,7 @@ impl Bench {
 
     /// Types a number into the field of this name, scrolled into sight first.
     pub fn type_number(&mut self, name: &str, number: &str) {
-        self.reveal(|harness| harness.get_by_role_and_label(egui::Role::SpinButton, name));
+        self.reveal(Some(egui::Role::SpinButton), name);
         let field = self.harness.get_by_role_and_label(egui::Role::SpinButton, name);
         field.focus();
         self.harness.run_steps(2);

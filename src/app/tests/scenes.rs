@@ -226,9 +226,9 @@ fn scenes_glass_and_moved_copies_are_there_again_at_the_next_start() {
         assert_eq!(model.document.work.settings, work.settings, "{scene}");
         assert_eq!(model.document.work.companions.stones.len(), work.companions.stones.len(), "{scene}");
         assert_eq!(model.workspace.shown(), shown, "{scene}");
-        assert!(
-            !model.document.is_changed() && !model.document.has_moved_copies() && !model.document.steps().0
-        );
+        assert!(!model.document.is_changed() && !model.document.steps().0);
+        // What was laid out and never saved as a scene still counts as unsaved.
+        assert_eq!(model.document.has_moved_copies(), scene != "trilogy", "{scene}");
     }
     // A design from a file is read from there, under the settings that it had.
     let path = folder.path().join("mine.toml");

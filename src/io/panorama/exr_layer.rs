@@ -33,12 +33,19 @@ impl<'s, C: ReadChannels<'s>> ReadChannels<'s> for OfPart<C> {
     type Reader = C::Reader;
 
     fn create_channels_reader(&'s self, header: &Header) -> ExrResult<Self::Reader> {
-        if *header == self.header {
+        if is_same_part(header, &self.header) {
             self.channels.create_channels_reader(header)
         } else {
             Err(Error::Invalid("this is another part".into()))
         }
     }
+}
+
+/// Returns whether two headers are of the same part. Other attributes may be numbers that do not equal themselves.
+fn is_same_part(a: &Header, b: &Header) -> bool {
+    let place = |header: &Header| (header.layer_size, header.own_attributes.layer_position);
+    let name = |header: &Header| header.own_attributes.layer_name.clone();
+    a.channels == b.channels && place(a) == place(b) && name(a) == name(b)
 }
 
 /// The layer with the picture of a file.

@@ -237,12 +237,31 @@ fn large_pictures_are_not_held_in_memory_however_many_threads_there_are() {
         ("export tolkowsky --size 2048 --views aset --format exr", 200.0),
     ] {
         for threads in ["2", "64"] {
-            let mut command = desk.command(line);
-            command.env("RAYON_NUM_THREADS", threads).stdout(Stdio::null());
-            let mut program = command.spawn().unwrap();
-            let held = most_memory(&mut program);
-            assert_eq!(program.wait().unwrap().code(), Some(0));
+            let held = held(&desk, line, threads);
             assert!((10.0..most).contains(&held), "{line}, {threads} threads: {held} MiB");
         }
     }
+}
+
+/// At an index of 5 each design would take as many beams as its share of memory holds.
+#[test]
+#[cfg(target_os = "linux")]
+fn designs_that_are_appraised_side_by_side_share_the_memory_of_one_however_many_threads_there_are() {
+    let desk = Desk::new();
+    let line = "optimise tolkowsky --material 5 --raise return-cos=1 --seconds 3";
+    for threads in ["2", "32"] {
+        let held = held(&desk, line, threads);
+        assert!((10.0..600.0).contains(&held), "{threads} threads: {held} MiB");
+    }
+}
+
+/// Returns the most memory that a command holds with a number of threads, in MiB; it must end well.
+#[cfg(target_os = "linux")]
+fn held(desk: &Desk, line: &str, threads: &str) -> f64 {
+    let mut command = desk.command(line);
+    command.env("RAYON_NUM_THREADS", threads).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut program = command.spawn().unwrap();
+    let held = most_memory(&mut program);
+    assert_eq!(program.wait().unwrap().code(), Some(0), "{line}");
+    held
 }

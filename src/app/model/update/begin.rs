@@ -5,7 +5,7 @@ use crate::app::model::Model;
 use crate::app::model::audit::SessionAudit;
 use crate::app::model::document::Document;
 use crate::app::model::preset::Preset;
-use crate::app::model::recovery::{KeptScene, RecoveredWork};
+use crate::app::model::recovery::{KeptCompanions, KeptScene, RecoveredWork};
 use crate::app::model::session::RingMaking;
 use crate::app::model::task::Task;
 use crate::app::model::view_history::{ViewHistory, ViewState};
@@ -126,10 +126,13 @@ pub fn begin_restored(
     mut document: Document,
     found: RecoveredWork,
 ) {
-    let KeptScene { copies, companions, settings, views } = found.around;
-    let companions = companions.built();
-    let companions = model.session.notes.ok_or_report(companions).unwrap_or_default();
-    document.begin_with(copies, companions, settings);
+    let KeptScene { copies, companions, laid, settings, views } = found.around;
+    let mut built =
+        |companions: KeptCompanions| model.session.notes.ok_or_report(companions.built()).unwrap_or_default();
+    document.begin_with(copies, built(companions), settings);
+    if let Some((copies, companions)) = laid {
+        document.begin_laid(copies, built(companions));
+    }
     begin(model, tasks, document, Begun::Anew);
     match views {
         Some(views) => views.lay(&mut model.workspace),

@@ -41,9 +41,12 @@ pub fn keep_last(model: &mut Model, tasks: &mut Vec<Task>, is_end: bool) {
 
 /// Returns work of the present document in the form in which it is kept.
 fn kept(model: &Model, work: Work) -> UnsavedWork {
+    let (copies, companions) = model.document.laid();
+    let laid = model.document.has_moved_copies().then(|| (copies.clone(), KeptCompanions::of(companions)));
     let around = KeptScene {
         copies: work.copies.clone(),
         companions: KeptCompanions::of(&work.companions),
+        laid,
         settings: work.settings.clone(),
         views: Some(ViewState::of(&model.workspace)),
     };

@@ -79,9 +79,13 @@ fn unpack(document: &Document, data: &mut Data) -> Result<(), Fault> {
         let Some(extension) = view.extension_value(meshopt::NAME) else { continue };
         let place = format!("bufferView {}", view.index());
         let (buffer, from) = (view.buffer().index(), view.offset());
+        // Before anything is unpacked: the file says how much room that takes.
+        let room = data.get(buffer).map_or(0, |bytes| bytes.len().saturating_sub(from));
+        if view.length() > room {
+            return Err(Fault::part(&place, "it is larger than its buffer"));
+        }
         let bytes = unpacked(extension, view.length(), data).map_err(|fault| Fault::part(&place, fault))?;
-        let to = from.checked_add(bytes.len()).and_then(|end| data[buffer].get_mut(from..end));
-        to.ok_or_else(|| Fault::part(&place, "it is larger than its buffer"))?.copy_from_slice(&bytes);
+        data[buffer][from..from + bytes.len()].copy_from_slice(&bytes);
     }
     Ok(())
 }

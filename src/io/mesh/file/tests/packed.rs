@@ -118,6 +118,11 @@ fn packed_bytes_that_are_broken_are_named() {
     root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = json!(1_000_000_000_000_u64);
     let error = opened(&root).unwrap_err().to_string();
     assert!(error.contains("does not lie within its buffer"), "{error}");
+    // The length of the view agrees with the count, and both are beyond any memory.
+    root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = json!(1_u64 << 58);
+    root["bufferViews"][0]["byteLength"] = json!(12 * (1_u64 << 58));
+    let error = opened(&root).unwrap_err().to_string();
+    assert!(error.contains("bufferView 0: it is larger than its buffer"), "{error}");
 }
 
 proptest! {
