@@ -6,7 +6,6 @@ use super::appraisal::{Appraisal, SearchError};
 use super::goal::Goal;
 use super::kept_shape::audit_of;
 use super::local::{climb, feel};
-use super::numbers::VariedNumber;
 use super::objective::Objective;
 use super::outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 use crate::cut::Design;
