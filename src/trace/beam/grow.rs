@@ -75,6 +75,13 @@ const AT_ONCE: usize = 64;
 /// for each other; with fewer, less memory is needed beside the tree.
 const PIECES_A_THREAD: usize = 8;
 
+/// The memory of a tree for each piece that is computed before it is added, bytes. A piece grows to about a quarter of that, so
+/// all of them take no more than a quarter of the memory of the tree, however many threads there are.
+const BYTES_FOR_A_PIECE: usize = 4 << 20;
+
+/// The number of pieces that are computed together even with little memory.
+const FEWEST_PIECES: usize = 4;
+
 /// The least and the greatest factor by which the level of energy falls in a step. With a smaller factor, the last
 /// step might overshoot.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
@@ -217,6 +224,8 @@ struct Tracer<'a> {
     adder: Option<&'a mut BeamAdder>,
     /// The followers, each of which works on one piece at a time.
     followers: Vec<Follower<'a>>,
+    /// The most pieces that are computed before they are added to the tree.
+    most_pieces: usize,
 }
 
 impl<'a> Tracer<'a> {
@@ -253,6 +262,7 @@ impl<'a> Tracer<'a> {
             level: f64::INFINITY,
             adder: None,
             followers: vec![],
+            most_pieces: (options.most_bytes / BYTES_FOR_A_PIECE).max(FEWEST_PIECES),
         };
         tracer.enter();
         tracer
@@ -396,7 +406,8 @@ impl<'a> Tracer<'a> {
     /// Follows these beams, and the beams into which they split, while `strong` accepts the energy and the number of
     /// bounces and no piece of work becomes too large.
     fn follow(&mut self, fronts: &[Front], strong: impl Fn(f64, u32) -> bool + Copy + Sync) {
-        for part in fronts.chunks(rayon::current_num_threads() * PIECES_A_THREAD * PIECE) {
+        let pieces = (rayon::current_num_threads() * PIECES_A_THREAD).min(self.most_pieces);
+        for part in fronts.chunks(pieces * PIECE) {
             let pieces = part.len().div_ceil(PIECE);
             while self.followers.len() < pieces {
                 self.followers.push(Follower::new(self.facets));
