@@ -41,7 +41,7 @@ impl Outside {
             if !is_at_hand && let Some(Ok(coarse)) = coarse_picture(&request) {
                 job.send(TaskAnswer::Looked(slot, Arc::clone(&request), Ok(coarse)));
             }
-            let taken = held(&lookup).picture(&request);
+            let taken = held(&lookup).picture(&request, &|done| job.watch(done));
             *held(&at_hand) = Some(request.behind.clone());
             job.send(TaskAnswer::Looked(slot, request, taken));
         });
@@ -50,5 +50,39 @@ impl Outside {
     /// Returns whether pictures are being looked up.
     pub fn is_looking_up(&self) -> bool {
         self.runner.is_running(|key| matches!(key, Key::LookUp(_)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::Model;
+    use crate::app::model::workspace::Workspace;
+    use crate::app::setup::Setup;
+    use crate::app::studio::{Grade, Which};
+    use crate::app::views::ViewTools;
+    use std::time::Duration;
+
+    #[test]
+    fn the_window_closes_while_a_picture_is_being_looked_up() {
+        let Setup { chooser, opener, .. } = Setup::default();
+        let mut outside = Outside::new(chooser, opener, None, Arc::new(|| {}));
+        let model = Model::new(Workspace::default()).unwrap();
+        let slot = (1, Which::Present);
+        let shot = ViewTools::default().orders(&model).shot(1, Which::Present, [64, 32]).unwrap();
+        let behind = BackgroundRef::read("page", std::path::Path::new("")).unwrap();
+        // The look-up cannot end while this is held.
+        let lookup = Arc::clone(&outside.look_ups.lookup);
+        let lock = held(&lookup);
+        outside.look_up(slot, LookupRequest { shot, grade: Grade::Fine, map: None, behind });
+        let (sender, closed) = std::sync::mpsc::channel();
+        let closing = std::thread::spawn(move || {
+            outside.finish();
+            sender.send(outside.is_looking_up()).unwrap();
+        });
+        let is_looking_up = closed.recv_timeout(Duration::from_secs(60));
+        drop(lock);
+        closing.join().unwrap();
+        assert_eq!(is_looking_up, Ok(true), "closing waits for the look-up");
     }
 }

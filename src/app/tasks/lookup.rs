@@ -4,10 +4,11 @@ use crate::app::lookup::as_screens;
 use crate::app::studio::{COARSE_FILM, Grade, SPAN, Shot, TakenPicture};
 use crate::io::Failure;
 use crate::io::background::BackgroundRef;
-use crate::picture::filling;
 use crate::picture::liquid_glass::{GlassPane, PreparedPane, SeenThrough};
 use crate::picture::{Linear, RefractionMap, refract};
+use crate::picture::{PATTERN_SIDE, filling};
 use crate::scene::Panorama;
+use crate::trace::{Watch, unwatched};
 use glam::DVec2;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::{Arc, OnceLock};
@@ -53,13 +54,13 @@ impl Lookup {
     /// Makes a picture.
     ///
     /// # Errors
-    /// Fails where the backplate cannot be read; the text says why.
-    pub fn picture(&mut self, request: &LookupRequest) -> Result<TakenPicture, Failure> {
+    /// Fails where the backplate cannot be read, where the text says why, or where `watch` asks to stop while it is drawn.
+    pub fn picture(&mut self, request: &LookupRequest, watch: Watch) -> Result<TakenPicture, Failure> {
         let Self { threads, backgrounds } = self;
         let begin = || ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
         match threads.get_or_init(begin) {
-            Some(threads) => threads.install(|| backgrounds.picture(request)),
-            None => backgrounds.picture(request),
+            Some(threads) => threads.install(|| backgrounds.picture(request, watch)),
+            None => backgrounds.picture(request, watch),
         }
     }
 }
@@ -71,7 +72,7 @@ pub fn coarse_picture(request: &LookupRequest) -> Option<Result<TakenPicture, Fa
     let reading = request.behind.picture_behind(COARSE_FILM).ok()??;
     let levels = Levels { whole: Arc::new(reading.panorama), halved: vec![] };
     let behind = Some((request.behind.clone(), levels));
-    Some(Backgrounds { behind, ..Backgrounds::default() }.picture(request))
+    Some(Backgrounds { behind, ..Backgrounds::default() }.picture(request, &unwatched))
 }
 
 /// The backgrounds that pictures were made of last.
@@ -89,16 +90,16 @@ struct Backgrounds {
 }
 
 impl Backgrounds {
-    fn picture(&mut self, request: &LookupRequest) -> Result<TakenPicture, Failure> {
+    fn picture(&mut self, request: &LookupRequest, watch: Watch) -> Result<TakenPicture, Failure> {
         let (picture, tracer) = match &request.map {
             Some((map, moved)) => {
-                let behind = self.levels(&request.behind)?.for_map(map.size);
+                let behind = self.levels(&request.behind, watch)?.for_map(map.size);
                 (refracted(map, &behind, *moved), "look-up in the map")
             }
             None => {
                 let size = request.shot.film.size;
                 let glass = request.shot.liquid.pane(size);
-                (self.liquid_glass(&glass, &request.behind, size)?, "arithmetic")
+                (self.liquid_glass(&glass, &request.behind, size, watch)?, "arithmetic")
             }
         };
         Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, coarser: 1.0, map: None })
@@ -111,6 +112,7 @@ impl Backgrounds {
         glass: &GlassPane,
         behind: &BackgroundRef,
         size: [u32; 2],
+        watch: Watch,
     ) -> Result<Linear, Failure> {
         let kept = self.pane.take().filter(|pane| pane.suits(glass, size));
         let is_seen =
@@ -118,7 +120,7 @@ impl Backgrounds {
         let seen = self.seen.take().filter(|seen| kept.is_some() && is_seen(seen));
         let mut pane = kept.unwrap_or_else(|| PreparedPane::new(glass, size));
         pane.moved_to(glass);
-        let background = self.filled(behind, size)?;
+        let background = self.filled(behind, size, watch)?;
         let seen = seen.map_or_else(|| pane.through(background), |(.., seen)| seen);
         let picture = pane.lit(glass, &seen, Some(background));
         self.pane = Some(pane);
@@ -127,12 +129,12 @@ impl Backgrounds {
     }
 
     /// Returns a background in its own size, with the halved sizes that have been needed so far.
-    fn levels(&mut self, background: &BackgroundRef) -> Result<&mut Levels, Failure> {
+    fn levels(&mut self, background: &BackgroundRef, watch: Watch) -> Result<&mut Levels, Failure> {
         let levels = match self.behind.take().filter(|(last, _)| last == background) {
             Some((_, levels)) => levels,
             None => {
                 let no_picture = || Failure::Input("the background is not a picture".to_owned());
-                let reading = background.picture()?.ok_or_else(no_picture)?;
+                let reading = background.picture_watched(PATTERN_SIDE / 2, watch)?.ok_or_else(no_picture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }
         };
@@ -140,11 +142,16 @@ impl Backgrounds {
     }
 
     /// Returns a background that is as large as a picture of `size` pixels.
-    fn filled(&mut self, background: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, Failure> {
+    fn filled(
+        &mut self,
+        background: &BackgroundRef,
+        size: [u32; 2],
+        watch: Watch,
+    ) -> Result<&Panorama, Failure> {
         let is = |(last, p): &(BackgroundRef, Panorama)| last == background && [p.width, p.height] == size;
         let picture = match self.filled.take().filter(is) {
             Some((_, picture)) => picture,
-            None => filling(&self.levels(background)?.whole, size),
+            None => filling(&self.levels(background, watch)?.whole, size),
         };
         Ok(&self.filled.insert((background.clone(), picture)).1)
     }

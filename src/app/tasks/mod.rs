@@ -298,7 +298,7 @@ impl Outside {
             handle.send(Computed::GoalSaved(path, written).into());
         };
         // Like all jobs that write, it waits for the one before it, and the program waits for it.
-        self.runner.start(Key::GoalSaved, Turn::After, Some(failed), job);
+        self.runner.start(Key::GoalSaved, Turn::Write, Some(failed), job);
     }
 
     /// Runs a job with one answer; `failed` is its answer where it panics.
@@ -320,7 +320,7 @@ impl Outside {
         job: impl FnOnce() -> Option<FileAction> + Send + 'static,
     ) {
         let job = |handle: &JobHandle<_>| job().into_iter().for_each(|answer| handle.send(answer.into()));
-        self.runner.start(key, Turn::After, Some(failed.into()), job);
+        self.runner.start(key, Turn::Write, Some(failed.into()), job);
     }
 
     /// Waits until all files that were to be written are written.

@@ -1,12 +1,13 @@
 //! Work in the background, where the newest job of a key wins.
 //!
 //! Every job has a key. A new job stops the one before it that has the same key, whose answers are then outdated and
-//! dropped unread. A job that writes waits its turn instead, so that it never runs beside the one before it; of those
-//! that wait, only the newest is kept.
+//! dropped unread. A job may wait its turn instead, as all that write do, so that it never runs beside the one before it; of
+//! those that wait, only the newest is kept.
 
 use crate::app::studio::Wake;
 use std::collections::HashMap;
 use std::hash::Hash;
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -17,8 +18,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub enum Turn {
     /// The new job begins at once, and the other is outdated.
     AtOnce,
-    /// The new job begins once the other has ended. The runner waits for such jobs before it is dropped.
+    /// The new job begins once the other has ended.
     After,
+    /// The new job writes: it begins once the other has ended, and [`finish`](TaskRunner::finish) waits for it.
+    Write,
+}
+
+impl Turn {
+    /// Returns whether a job waits until the one before it has ended.
+    fn waits(self) -> bool {
+        self != Self::AtOnce
+    }
 }
 
 /// A job's side of its runner.
@@ -36,6 +46,11 @@ impl<A> JobHandle<A> {
     /// Returns whether the job was stopped or its answers are outdated.
     pub fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Stops the work of a job that was stopped, wherever a [`Watch`](crate::trace::Watch) is called.
+    pub fn watch(&self, _done: f64) -> ControlFlow<()> {
+        if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
@@ -116,7 +131,7 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
         }
         lane.stop = Arc::default();
         let job = Job { number: lane.number, stop: Arc::clone(&lane.stop), work };
-        if turn == Turn::After {
+        if turn.waits() {
             let mut queue = lane.queue.lock().unwrap_or_else(PoisonError::into_inner);
             if queue.is_running {
                 // The job that waited until now is dropped, so it sends no message of its end.
@@ -125,7 +140,7 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
             }
             queue.is_running = true;
         }
-        let queue = (turn == Turn::After).then(|| Arc::clone(&lane.queue));
+        let queue = turn.waits().then(|| Arc::clone(&lane.queue));
         let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
         std::thread::spawn(move || work_off(key, job, queue.as_deref(), &sender, &wake));
     }
@@ -147,7 +162,7 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
     fn take(&mut self, message: Message<K, A>) -> Option<A> {
         let lane = self.lanes.get_mut(&message.key)?;
         lane.pending -= usize::from(message.answer.is_none());
-        message.answer.filter(|_| lane.turn == Turn::After || lane.number == message.number)
+        message.answer.filter(|_| lane.turn.waits() || lane.number == message.number)
     }
 
     /// Returns whether a job is running whose key `is_meant` accepts.
@@ -157,7 +172,7 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
 
     /// Waits until all jobs that write have ended.
     pub fn finish(&mut self) {
-        let is_writing = |lane: &Lane<A>| lane.pending > 0 && lane.turn == Turn::After;
+        let is_writing = |lane: &Lane<A>| lane.pending > 0 && lane.turn == Turn::Write;
         while self.lanes.values().any(is_writing)
             && let Ok(message) = self.messages.recv()
         {
@@ -271,7 +286,7 @@ mod tests {
                 held.into_iter().for_each(|held| held.recv().unwrap());
                 sender.send(number).unwrap();
             };
-            runner.start("a", Turn::After, None, job);
+            runner.start("a", Turn::Write, None, job);
         }
         free.send(()).unwrap();
         runner.finish();
@@ -289,5 +304,25 @@ mod tests {
         });
         runner.stop("a");
         assert_eq!(all(&mut runner, &woken), [7]);
+    }
+
+    #[test]
+    fn a_job_that_writes_nothing_is_not_waited_for_and_stops_with_the_runner() {
+        let (mut runner, _woken) = runner();
+        let (sender, ended) = channel();
+        for turn in [Turn::AtOnce, Turn::After] {
+            let sender = sender.clone();
+            let job = move |job: &JobHandle<i32>| {
+                while !job.is_stopped() {
+                    std::thread::yield_now();
+                }
+                sender.send(()).unwrap();
+            };
+            runner.start(if turn == Turn::After { "a" } else { "b" }, turn, None, job);
+        }
+        let waits = std::thread::spawn(move || runner.finish());
+        // A runner that waits for these jobs never stops them.
+        let [first, second] = [(); 2].map(|()| ended.recv_timeout(std::time::Duration::from_secs(60)));
+        assert!(first.is_ok() && second.is_ok() && waits.join().is_ok());
     }
 }
