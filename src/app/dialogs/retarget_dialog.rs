@@ -3,7 +3,7 @@
 use super::answers::{answer, body, buttons_alone};
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
-use crate::app::panels::rows::{ChoiceRow, Number, number_row};
+use crate::app::panels::rows::{ChoiceRow, NUMBER, Number, explain, named_with_reset, skip_control};
 use crate::app::panels::stone_rows::material_choice;
 use crate::app::theme;
 use crate::cut::Retargeted;
@@ -68,10 +68,18 @@ fn options(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
         let before = options.factor.unwrap_or(own);
         let mut factor = before;
         let number = Number { decimals: 4, speed: 0.001, range: 0.1..=10.0, unit: "", default: None };
-        number_row(ui, ("Factor", FACTOR), number, &mut factor);
-        if factor != before {
-            options.factor = Some(factor);
-        }
+        ui.horizontal(|ui| {
+            let (label, is_reset) = named_with_reset(ui, "Factor", FACTOR);
+            skip_control(ui, 0.0);
+            let field = number.show(ui, (NUMBER, label.id), &mut factor);
+            explain(ui, field, FACTOR);
+            if is_reset {
+                // The rule finds the factor.
+                options.factor = None;
+            } else if factor != before {
+                options.factor = Some(factor);
+            }
+        });
     }
     actions.push_changed(&form.options, options, DialogAction::Fit);
 }

@@ -37,7 +37,7 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
         ui.heading("Size and yield");
         ui.add_space(4.0);
         let mut options = form.options;
-        numbers(&mut options, ui);
+        numbers(&mut options, &form.first, ui);
         actions.push_changed(&form.options, options, DialogAction::Size);
         ui.add_space(8.0);
         match &form.found {
@@ -57,10 +57,16 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
 }
 
 /// Draws the rows in which numbers are typed: the rough or the weight, and the girdle.
-fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
-    let mm =
-        |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm", default: None };
-    let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct", default: None };
+fn numbers(options: &mut YieldOptions, first: &YieldOptions, ui: &mut Ui) {
+    let mm = |range: RangeInclusive<f64>, first: f64| Number {
+        decimals: 3,
+        speed: 0.02,
+        range,
+        unit: " mm",
+        default: Some(first),
+    };
+    let ct =
+        |first: f64| Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct", default: Some(first) };
     ChoiceRow::new("Size by", "The rough or a weight sets the size.", options.by.name()).show(ui, |ui| {
         for by in SizeBy::ALL {
             if ui.selectable_label(by == options.by, by.name()).on_hover_text(by.meaning()).clicked() {
@@ -69,16 +75,17 @@ fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
         }
     });
     if options.by == SizeBy::Rough {
-        for (side, row) in options.sides_mm.iter_mut().zip(SIDES) {
-            number_row(ui, row, mm(SIDES_MM), side);
+        for ((side, row), first) in options.sides_mm.iter_mut().zip(SIDES).zip(first.sides_mm) {
+            number_row(ui, row, mm(SIDES_MM, first), side);
         }
     } else {
-        number_row(ui, ("Wanted weight", "The weight of the finished stone."), ct(), &mut options.carats);
+        let meaning = "The weight of the finished stone.";
+        number_row(ui, ("Wanted weight", meaning), ct(first.carats), &mut options.carats);
     }
     let meaning =
         "The weight of the rough, of which the yield is a part as well. 0 stands for one that is not known.";
     let mut rough = options.rough_carats.unwrap_or(0.0);
-    number_row(ui, ("Rough weight", meaning), ct(), &mut rough);
+    number_row(ui, ("Rough weight", meaning), ct(first.rough_carats.unwrap_or(0.0)), &mut rough);
     options.rough_carats = (rough > 0.0).then_some(rough);
     let mut is_own = options.girdle_mm.is_some();
     let meaning = "The finished girdle has a thickness in mm, whatever the size of the stone. Otherwise it grows with the stone.";
@@ -86,7 +93,7 @@ fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
         options.girdle_mm = is_own.then_some(FIRST_GIRDLE_MM);
     }
     if let Some(girdle) = &mut options.girdle_mm {
-        number_row(ui, ("Girdle thickness", meaning), mm(GIRDLES_MM), girdle);
+        number_row(ui, ("Girdle thickness", meaning), mm(GIRDLES_MM, FIRST_GIRDLE_MM), girdle);
     }
 }
 

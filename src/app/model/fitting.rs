@@ -194,6 +194,8 @@ pub struct YieldOptions {
 pub struct YieldForm {
     /// The numbers in the fields.
     pub options: YieldOptions,
+    /// The numbers with which the dialog began.
+    pub first: YieldOptions,
     /// The finished stone, or why there is none.
     pub found: Result<Finished, RoughError>,
 }
@@ -206,7 +208,7 @@ impl YieldForm {
         let carats = specimen.carats().unwrap_or(1.0);
         let by = SizeBy::Rough;
         let options = YieldOptions { by, sides_mm, carats, rough_carats: None, girdle_mm: None };
-        Self { options, found: finished(&options, specimen, stone) }
+        Self { options, first: options, found: finished(&options, specimen, stone) }
     }
 
     /// Takes other numbers and finds the stone anew.

@@ -1,7 +1,7 @@
 //! The window with the map of a measure: the choices of measure and axes, the map, and the values under the pointer.
 
 use super::map_plot::{MapPlot, MapReading};
-use super::rows::{ANY, ChoiceRow, NUMBER, Number, named};
+use super::rows::{ANY, ChoiceRow, NUMBER, Number, named_with_reset};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
@@ -97,8 +97,12 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
                 (least, "The value at the first end of the axis."),
                 (most, "The value at the other end of the axis."),
             ];
-            for (end, (name, meaning)) in axis.ends.iter_mut().zip(ends) {
-                let label = named(ui, name, meaning);
+            let first = all.iter().find(|offered| offered.key == axis.key).map(|offered| offered.ends);
+            for (k, (end, (name, meaning))) in axis.ends.iter_mut().zip(ends).enumerate() {
+                let (label, is_reset) = named_with_reset(ui, name, meaning);
+                if let Some(first) = first.filter(|_| is_reset) {
+                    *end = first[k];
+                }
                 let number = Number { decimals: 2, speed: 0.05, range: ANY, unit: axis.unit, default: None };
                 number.show(ui, (NUMBER, label.id), end);
             }

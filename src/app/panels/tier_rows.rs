@@ -5,7 +5,7 @@
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::command::Command;
 use crate::app::model::document::Document;
-use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, skip_control};
+use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, named_with_reset, skip_control};
 use crate::cut::{Cut, TierChange};
 use egui::{Align, Layout, RichText, Ui, vec2};
 
@@ -35,9 +35,16 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
         ]
         .map(|(head, meaning)| head_of_column(ui, head, meaning))
     });
+    let saved = document.saved().cut.settings();
     for (place, setting) in document.work.design.cut.settings().into_iter().enumerate() {
         ui.horizontal(|ui| {
-            let label = named(ui, &format!("{} · {}", setting.name, setting.facets), MEANING);
+            let name = format!("{} · {}", setting.name, setting.facets);
+            // No two tiers of a design have the same name.
+            let first = saved.iter().find(|first| first.name == setting.name);
+            let (label, is_reset) = match first {
+                Some(_) => named_with_reset(ui, &name, MEANING),
+                None => (named(ui, &name, MEANING), false),
+            };
             skip_angle(ui);
             let (mut angle, mut distance_mm) = (setting.angle, setting.distance * unit_mm);
             let before_mm = distance_mm;
@@ -50,6 +57,10 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
             let distance = if distance_mm == before_mm { setting.distance } else { distance_mm / unit_mm };
             // A user who leaves out the sign means the same side: a tier never changes from crown to pavilion or back.
             let angle = angle.abs().copysign(setting.angle);
+            let (angle, distance) = match first.filter(|_| is_reset) {
+                Some(first) => (first.angle, first.distance),
+                None => (angle, distance),
+            };
             let is_changed = (angle, distance) != (setting.angle, setting.distance);
             if is_changed && angle.is_finite() && distance.is_finite() {
                 actions.push(match &document.work.design.cut {

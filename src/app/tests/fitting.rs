@@ -1,5 +1,6 @@
 //! Fitting a design to another material, and to a piece of rough or a weight, by the names on the screen.
 
+use super::row_defaults::double_click_name;
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::fitting::RetargetForm;
@@ -87,6 +88,8 @@ fn a_factor_is_typed_for_one_side_and_cancelling_changes_nothing() {
     for tier in found.tiers.iter().filter(|tier| tier.before_deg != 0.0) {
         assert!((tan(tier.after_deg) / tan(tier.before_deg) - 0.9).abs() < 1e-9, "{tier:?}");
     }
+    double_click_name(&mut bench, Role::SpinButton, "Factor");
+    assert_eq!(form(&bench).options.factor, None, "the rule finds the factor again");
     bench.click("Cancel");
     bench.settle();
     assert!(bench.editor().model.session.dialog.is_none());
@@ -117,6 +120,14 @@ fn rough_and_weight_give_the_size_and_the_yield() {
     for (name, mm) in [("Rough length", "9"), ("Rough width", "8"), ("Rough depth", "7")] {
         bench.type_number(name, mm);
     }
+    let sides = |bench: &Bench| match &bench.editor().model.session.dialog {
+        Some(Dialog::Yield(form)) => (form.options.sides_mm, form.first.sides_mm),
+        other => panic!("{other:?}"),
+    };
+    double_click_name(&mut bench, Role::SpinButton, "Rough width");
+    let (now, first) = sides(&bench);
+    assert_eq!(now, [9.0, first[1], 7.0], "the row is as the dialog began");
+    bench.type_number("Rough width", "8");
     let specimen = Arc::clone(bench.editor().model.document.specimen());
     let rough = Rough::new([9.0, 8.0, 7.0]).unwrap();
     let found = Finished::from_rough(&specimen.stone().unwrap().polytope, &rough, None).unwrap();

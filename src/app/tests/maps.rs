@@ -40,6 +40,18 @@ fn values(model: &Model) -> [f64; 2] {
 }
 
 #[test]
+fn a_double_click_on_the_name_of_an_end_sets_it_as_the_map_began() {
+    let mut bench = opened();
+    let ends = |bench: &Bench| bench.editor().model.session.map.options().unwrap().axes[0].ends;
+    let before = ends(&bench);
+    let changed = format!("{:.2}", before[0] + 0.25);
+    bench.type_number("Least across", &changed);
+    assert!(ends(&bench) != before);
+    super::row_defaults::double_click_name(&mut bench, Role::SpinButton, "Least across");
+    assert_eq!(ends(&bench), before);
+}
+
+#[test]
 fn a_click_on_the_map_moves_the_design_and_undo_brings_it_back() {
     let mut bench = opened();
     let before = values(&bench.editor().model);

@@ -34,7 +34,7 @@ fn undo(bench: &mut Bench) {
     bench.harness.run_steps(3);
 }
 
-fn double_click(bench: &mut Bench, at: Pos2) {
+pub fn double_click(bench: &mut Bench, at: Pos2) {
     bench.harness.hover_at(at);
     bench.harness.run_steps(2);
     for pressed in [true, false, true, false] {
@@ -47,7 +47,7 @@ fn double_click(bench: &mut Bench, at: Pos2) {
 }
 
 /// Clicks the name of the row of a field twice; a heading may have the same name.
-fn double_click_name(bench: &mut Bench, role: Role, name: &str) {
+pub fn double_click_name(bench: &mut Bench, role: Role, name: &str) {
     bench.field(role, name).scroll_to_me();
     bench.harness.run_steps(SCROLLED);
     let row = bench.field(role, name).rect();

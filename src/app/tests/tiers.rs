@@ -1,5 +1,6 @@
 //! Tests of the table of tiers: the changes that it makes, and the selection that it shares with the views.
 
+use super::row_defaults::double_click;
 use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::{Action, update};
@@ -333,6 +334,31 @@ fn reopened(bench: &Bench, folder: &std::path::Path) -> Bench {
     bench.choose("View", "Table of tiers");
     bench.settle();
     bench
+}
+
+#[test]
+fn a_double_click_on_the_name_of_a_tier_in_the_panel_sets_its_saved_angle_and_distance() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = reopened(&turned(), folder.path());
+    bench.choose("View", "Table of tiers");
+    bench.settle();
+    let before = bench.editor().model.document.work.clone();
+    let setting = before.design.cut.settings()[2].clone();
+    let name = format!("{} · {}", setting.name, setting.facets);
+    let place = tiers(&bench).place_of_cut(2);
+    let change = TierChange::Setting(place, setting.angle + 0.7, setting.distance * 1.01);
+    bench.harness.state_mut().act(Edit::Tiers(change));
+    bench.settle();
+    assert!(bench.editor().model.document.work.design.cut != before.design.cut);
+    bench.harness.get_by_label(&name).scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
+    let at = bench.harness.get_by_label(&name).rect().left_center() + egui::vec2(8.0, 0.0);
+    double_click(&mut bench, at);
+    let now = bench.editor().model.document.work.design.cut.settings()[2].clone();
+    assert_eq!((now.angle, now.distance), (setting.angle, setting.distance));
+    bench.choose("Edit", "Undo");
+    bench.settle();
+    assert!(bench.editor().model.document.work.design.cut.settings()[2].angle != setting.angle, "one step");
 }
 
 #[test]
