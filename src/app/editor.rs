@@ -148,6 +148,9 @@ impl Editor {
         let which = if is_other { Which::Other } else { Which::Present };
         let shows = self.model.workspace.panes[pane].shows;
         let text = match self.shown((pane, which)).filter(|picture| picture.shot.shows == shows) {
+            Some(picture) if picture.shot.waits_for_light() => {
+                "The light is still being drawn; copy the view when it is done.".to_owned()
+            }
             Some(picture) => {
                 self.ctx.copy_image(picture.taken.image.clone());
                 format!("{} copied", shows.name())
@@ -303,7 +306,12 @@ impl Editor {
     fn state(&self) -> String {
         let session = &self.model.session;
         let opening = session.awaited.opening.last().map(Opening::message);
-        let lighting = || session.light.loading.as_ref().map(|_| "loading the light…".to_owned());
+        let lighting = || {
+            let loading = session.light.loading.as_ref()?;
+            // While the map is drawn, views show a coarse one.
+            let is_drawn = session.light.at_hand.is_coarse() && session.light.name == *loading;
+            Some(if is_drawn { "drawing the light…" } else { "loading the light…" }.to_owned())
+        };
         opening.or_else(|| self.studio.preparing()).or_else(lighting).unwrap_or_else(|| {
             let is_busy = !self.studio.is_idle() || self.outside.is_looking_up();
             let state = match (is_busy, self.studio.sharpens()) {

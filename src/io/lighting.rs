@@ -1,10 +1,11 @@
 //! Loads the light of a scene: one that comes with the program, a light file, or a panorama.
 
-use super::{NameOrFileError, light_file, nearest, panorama};
-use crate::scene::{LIGHTS, Light, light};
+use super::{Failure, NameOrFileError, light_file, nearest, panorama};
+use crate::scene::{LIGHTS, Light, Panorama, light};
+use crate::trace::Watch;
 use crate::trace::environment::EnvironmentMap;
 pub use crate::trace::environment::Lighting;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 impl Lighting {
     /// Loads a light by its name, from a light file, or from a panorama alone.
@@ -12,6 +13,39 @@ impl Lighting {
     /// # Errors
     /// Fails where no light has the name, or the file is at fault.
     pub fn load(name_or_file: &str) -> Result<Self, NameOrFileError> {
+        let source = LightSource::read(name_or_file)?;
+        let map = EnvironmentMap::new(&source.light, source.panorama.as_ref());
+        Ok(source.with_map(map))
+    }
+
+    /// Loads the same light as [`load`](Self::load). Where its map takes seconds to draw, as that of a world does, `at_hand`
+    /// gets the light with a coarse map first, in which pictures can be shown but not written.
+    ///
+    /// # Errors
+    /// Fails where [`load`](Self::load) does, or where `watch` asks to stop.
+    pub fn load_watched(
+        name_or_file: &str,
+        watch: Watch,
+        at_hand: impl FnOnce(Self),
+    ) -> Result<Self, Failure> {
+        let source = LightSource::read(name_or_file)?;
+        if let Some(map) = EnvironmentMap::coarse(&source.light) {
+            at_hand(Self { light: source.light.clone(), map, warnings: vec![] });
+        }
+        let map = EnvironmentMap::watched(&source.light, source.panorama.as_ref(), watch)?;
+        Ok(source.with_map(map))
+    }
+}
+
+/// A light that has been read, with all that its map is drawn from.
+struct LightSource {
+    light: Light,
+    panorama: Option<Panorama>,
+    warnings: Vec<String>,
+}
+
+impl LightSource {
+    fn read(name_or_file: &str) -> Result<Self, NameOrFileError> {
         let file = PathBuf::from(name_or_file);
         let (light, folder) = match light(&name_or_file.to_ascii_lowercase()) {
             Some(light) => (light, None),
@@ -21,17 +55,18 @@ impl Lighting {
             }
             None => (light_file::read(&file)?, file.parent()),
         };
-        let (sky, warnings) = sky(&light, folder)?;
-        Ok(Self { light, map: sky, warnings })
+        let Some(picture) = &light.panorama else {
+            return Ok(Self { light, panorama: None, warnings: vec![] });
+        };
+        // The path of a panorama begins at the folder of the light file.
+        let path = folder.map_or_else(|| picture.file.clone(), |folder| folder.join(&picture.file));
+        let reading = panorama::read(&path)?;
+        Ok(Self { light, panorama: Some(reading.panorama), warnings: reading.warnings })
     }
-}
 
-/// Makes the map of a light, with warnings; the path of its panorama begins at a folder.
-fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<String>), NameOrFileError> {
-    let Some(picture) = &light.panorama else { return Ok((EnvironmentMap::new(light, None), vec![])) };
-    let path = folder.map_or_else(|| picture.file.clone(), |folder| folder.join(&picture.file));
-    let reading = panorama::read(&path)?;
-    Ok((EnvironmentMap::new(light, Some(&reading.panorama)), reading.warnings))
+    fn with_map(self, map: EnvironmentMap) -> Lighting {
+        Lighting { light: self.light, map, warnings: self.warnings }
+    }
 }
 
 /// Returns the message about a name that no light has.
@@ -48,6 +83,9 @@ mod tests {
     use super::*;
     use crate::io::write_rgba_png;
     use crate::scene::World;
+    use crate::trace::unwatched;
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn refused(name: &str) -> NameOrFileError {
         Lighting::load(name).err().unwrap()
@@ -92,6 +130,31 @@ mod tests {
         let lit = Light { dome: Light::dome().dome, ..sunset.light };
         let sum = |map: &EnvironmentMap| map.levels[0].iter().flatten().map(|&c| f64::from(c)).sum::<f64>();
         assert!(sum(&EnvironmentMap::new(&lit, None)) > 1.2 * sum(&sunset.map));
+    }
+
+    #[test]
+    fn a_world_is_at_hand_coarsely_before_it_is_drawn_and_its_drawing_can_be_stopped() {
+        let mut coarse = None;
+        let stop = |_: f64| ControlFlow::Break(());
+        let stopped = Lighting::load_watched("city", &stop, |light| coarse = Some(light));
+        assert!(matches!(stopped, Err(Failure::Stopped)));
+        let coarse = coarse.unwrap();
+        let calls = AtomicUsize::new(0);
+        let count = |_: f64| {
+            calls.fetch_add(1, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        };
+        let whole = Lighting::load_watched("city", &count, |_| {}).unwrap();
+        assert!(calls.into_inner() >= 16, "other work has its turn in between");
+        assert!(coarse.light == whole.light && 4 * coarse.map.side < whole.map.side);
+        // Both maps hold the same light.
+        let mean = |map: &EnvironmentMap| map.levels.last().unwrap().iter().flatten().sum::<f32>();
+        let [few, all] = [&coarse, &whole].map(|light| mean(&light.map));
+        assert!((few / all - 1.0).abs() < 0.1, "{few} {all}");
+        // A light that is drawn quickly is whole at once.
+        let mut coarse = None;
+        let dome = Lighting::load_watched("dome", &unwatched, |light| coarse = Some(light)).unwrap();
+        assert!(coarse.is_none() && dome == Lighting::load("dome").unwrap());
     }
 
     #[test]

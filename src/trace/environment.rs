@@ -10,7 +10,7 @@
 mod backplate;
 mod drawing;
 
-use super::DispersedRay;
+use super::{DispersedRay, Stopped, Watch, unwatched};
 use crate::math::Basis;
 use crate::scene::{Light, LightError, Panorama, World, toward};
 pub(in crate::trace) use backplate::{ALONG, Photographed};
@@ -20,6 +20,7 @@ use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_PI, PI};
+use std::ops::Range;
 
 /// The side in radians, √(4π), of the only texel of a map with side 1, as if it were a square: it covers the whole
 /// sphere.
@@ -30,6 +31,12 @@ const SIDE: usize = 512;
 
 /// Side of the map, in texels, for light with a panorama or a world.
 const SIDE_OF_PICTURE: usize = 1024;
+
+/// Side of the coarse map, in texels, of a light with a world. Drawing it takes some hundredths of a second.
+const COARSE_SIDE: usize = 128;
+
+/// The rows of a map that are drawn before other work of the thread pool has its turn.
+const PART_ROWS: usize = 32;
 
 /// The least and the greatest number of samples along each side of a texel. Between them, there is one sample for
 /// each pixel of the panorama.
@@ -166,27 +173,49 @@ pub(crate) const HEAD_EDGE: f64 = 0.004;
 impl EnvironmentMap {
     /// Draws a light into maps, with the world that it names. `panorama` is the picture that the light names.
     pub fn new(light: &Light, panorama: Option<&Panorama>) -> Self {
+        match Self::watched(light, panorama, &unwatched) {
+            Ok(map) => map,
+            Err(Stopped) => unreachable!("nothing stops it"),
+        }
+    }
+
+    /// Draws the same maps as [`new`](Self::new) does, a part after the other, so that other work of the thread pool has its
+    /// turn between two parts.
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
+    pub fn watched(light: &Light, panorama: Option<&Panorama>, watch: Watch) -> Result<Self, Stopped> {
         let side = if panorama.is_some() || light.world.is_some() { SIDE_OF_PICTURE } else { SIDE };
-        let world = light.world.map(|world| world_texels(world, side));
+        Self::drawn(light, panorama, side, watch)
+    }
+
+    /// Draws coarse maps of a light whose whole ones take seconds, as those of worlds do; `None` for any other light.
+    pub fn coarse(light: &Light) -> Option<Self> {
+        (light.world.is_some() && light.panorama.is_none())
+            .then(|| Self::drawn(light, None, COARSE_SIDE, &unwatched).ok())
+            .flatten()
+    }
+
+    /// Draws a light into maps, of which the finest has this side.
+    fn drawn(light: &Light, panorama: Option<&Panorama>, side: usize, watch: Watch) -> Result<Self, Stopped> {
         let pixels = panorama.map_or(0, |p| p.width as usize / (2 * side));
         let per_side = pixels.clamp(PER_SIDE.0, PER_SIDE.1);
-        let cells = side * per_side;
         let broad = BroadLight::new(light, panorama);
-        let row = |y: usize| {
-            let texel = |x: usize| {
-                let sample = |k: usize| {
-                    let (i, j) = (x * per_side + k % per_side, y * per_side + k / per_side);
-                    let at = (DVec2::new(i as f64, j as f64) + 0.5) / cells as f64;
-                    broad.radiance(direction(at))
-                };
-                let all: DVec4 = (0..per_side * per_side).map(sample).sum();
-                let world = world.as_ref().map_or(DVec3::ZERO, |texels| texels[y * side + x]);
-                let all = all / (per_side * per_side) as f64 + world.extend(0.0).wxyz();
-                all.min(DVec4::splat(BRIGHTEST)).as_vec4().to_array()
+        let mut finest = Vec::with_capacity(side * side);
+        for first in (0..side).step_by(PART_ROWS) {
+            if watch(first as f64 / side as f64).is_break() {
+                return Err(Stopped);
+            }
+            let rows = first..(first + PART_ROWS).min(side);
+            let world = light.world.map(|world| world_texels(world, side, rows.clone()));
+            let row = |y: usize| {
+                let from = (y - first) * side;
+                let world = world.as_ref().map(|texels| &texels[from..from + side]);
+                broad_row(&broad, side, per_side, y, world)
             };
-            (0..side).map(texel).collect::<Vec<_>>()
-        };
-        let mut levels = vec![(0..side).into_par_iter().flat_map_iter(row).collect::<Vec<_>>()];
+            finest.par_extend(rows.into_par_iter().flat_map_iter(row));
+        }
+        let mut levels = vec![finest];
         while levels[levels.len() - 1].len() > 16 {
             levels.push(halved(&levels[levels.len() - 1]));
         }
@@ -195,7 +224,7 @@ impl EnvironmentMap {
             chord_squared: (2.0 * (lamp.radius.to_radians() / 2.0).sin()).powi(2),
             radiance: channels(lamp.colour) * lamp.radiance,
         };
-        Self { levels, side, lamps: light.lamps().into_iter().map(disc).collect() }
+        Ok(Self { levels, side, lamps: light.lamps().into_iter().map(disc).collect() })
     }
 
     /// Checks that every level is a square of half the side of the one before.
@@ -378,10 +407,34 @@ pub(super) fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
     p
 }
 
-/// Draws a world into a map with this side, row by row.
-fn world_texels(world: World, side: usize) -> Vec<DVec3> {
+/// Returns a row of a map with this side, from a broad light and the row of a world. Each texel is the mean of `per_side` by
+/// `per_side` samples of the broad light.
+fn broad_row(
+    broad: &BroadLight,
+    side: usize,
+    per_side: usize,
+    y: usize,
+    world: Option<&[DVec3]>,
+) -> Vec<Radiance> {
+    let cells = side * per_side;
+    let texel = |x: usize| {
+        let sample = |k: usize| {
+            let (i, j) = (x * per_side + k % per_side, y * per_side + k / per_side);
+            let at = (DVec2::new(i as f64, j as f64) + 0.5) / cells as f64;
+            broad.radiance(direction(at))
+        };
+        let all: DVec4 = (0..per_side * per_side).map(sample).sum();
+        let world = world.map_or(DVec3::ZERO, |row| row[x]);
+        let all = all / (per_side * per_side) as f64 + world.extend(0.0).wxyz();
+        all.min(DVec4::splat(BRIGHTEST)).as_vec4().to_array()
+    };
+    (0..side).map(texel).collect()
+}
+
+/// Draws some rows of the map of a world with this side.
+fn world_texels(world: World, side: usize, rows: Range<usize>) -> Vec<DVec3> {
     let texel = TEXEL_ANGLE / side as f64;
-    world.drawn([side; 2], |at| (World::from_light(direction(at / side as f64)), texel))
+    world.drawn([side; 2], rows, |at| (World::from_light(direction(at / side as f64)), texel))
 }
 
 /// Returns the next coarser level, in which each texel is the mean of two by two texels.

@@ -20,10 +20,9 @@ use super::saving::{SavedDesign, Stamp};
 use super::session::{Flowing, HeldKeys};
 use super::workspace::PanelSide;
 use crate::app::shows::Shows;
-use crate::app::studio::{FiguresOrder, Grade, Order, SweptPoint, Tilts, Which};
+use crate::app::studio::{FiguresOrder, Grade, Order, ShotLight, SweptPoint, Tilts, Which};
 use crate::cut::{Audit, Cut, Design, MaterialRef, ScaledSide, TierChange};
 use crate::io::Failure;
-use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
 use crate::optics::Metal;
@@ -306,8 +305,8 @@ pub enum NoteAction {
 /// A result of the studio or of a task.
 #[derive(Debug)]
 pub enum Computed {
-    /// The light of this name or file.
-    Light(String, Result<Arc<Lighting>, Failure>),
+    /// The light of this name or file: first a coarse one where the whole one takes long.
+    Light(String, Result<ShotLight, Failure>),
     /// Figures of the present or of the other design, with the order that they answer.
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
     Tilts(FiguresOrder, Tilts),

@@ -131,7 +131,7 @@ impl Orders<'_> {
             view,
             film: fit.film([1, 1]),
             whole: fit.whole([1, 1]),
-            light: Arc::clone(&session.light.lighting),
+            light: session.light.at_hand.clone(),
             exposure: settings.exposure,
             bands: settings.wavelengths,
             jitter: true,

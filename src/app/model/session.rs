@@ -21,21 +21,20 @@ use super::saving::Stamp;
 use super::view_history::ViewHistory;
 use super::work::Work;
 use super::workspace::Workspace;
-use crate::app::studio::Order;
+use crate::app::studio::{Order, ShotLight};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::picture::liquid_glass::LightFrom;
 use crate::scene::RingPlan;
 use glam::DVec2;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// The light of renders, and the light that is being loaded.
 #[derive(Debug, Clone)]
 pub struct LoadedLight {
     /// The name of the light that renders show, or its file.
     pub name: String,
-    pub lighting: Arc<Lighting>,
+    pub at_hand: ShotLight,
     /// The light that the program last tried to load. Where loading failed, `name` is still the one before.
     pub tried: String,
     pub loading: Option<String>,
@@ -194,7 +193,7 @@ impl Session {
             views: ViewHistory::new(workspace),
             light: LoadedLight {
                 name: FIRST_LIGHT.to_owned(),
-                lighting: Arc::new(first),
+                at_hand: ShotLight::whole(first),
                 tried: FIRST_LIGHT.to_owned(),
                 loading: None,
             },

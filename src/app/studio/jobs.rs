@@ -80,7 +80,13 @@ impl Shot {
         let shows_light = self.behind == Some(BackgroundRef::Light);
         let turn = self.light_turn.to_radians();
         let is_upright = self.light_upright;
-        Surroundings { turn, is_upright, shows_light, backplate, ..Surroundings::of(Arc::clone(&self.light)) }
+        Surroundings {
+            turn,
+            is_upright,
+            shows_light,
+            backplate,
+            ..Surroundings::of(Arc::clone(self.light.at_hand()))
+        }
     }
 
     fn job(&self, product: Product, quality: Quality) -> Job {

@@ -13,6 +13,7 @@ mod order;
 mod pace;
 mod refracted;
 mod render;
+mod shot_light;
 mod sweeping;
 mod take;
 mod undeveloped;
@@ -29,6 +30,7 @@ pub use jobs::{BEHIND, SPAN, hung};
 pub use mailbox::Wake;
 pub use refracted::survey;
 pub use render::ExportedRender;
+pub use shot_light::ShotLight;
 pub use take::ShotTracer;
 
 use crate::app::urgency;

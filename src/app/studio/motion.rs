@@ -159,7 +159,7 @@ mod tests {
             view: View { projection: *projection, ..eye.view(None) },
             film: eye.film([48, 40], &FramingFit::reaching(3.0)),
             whole: FramingFit::reaching(3.0).film([48, 40]),
-            light: Arc::new(Lighting::load("dome").unwrap()),
+            light: crate::app::studio::ShotLight::whole(Lighting::load("dome").unwrap()),
             bands: 3,
             jitter: true,
             behind: None,

@@ -1,16 +1,19 @@
 //! The orders that the studio receives, and its answers.
 
+use super::shot_light::ShotLight;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
-use crate::io::lighting::Lighting;
 use crate::measure::Figures;
 use crate::picture::DrawnMarks;
 pub use crate::picture::Smoothing;
 use crate::picture::{Inks, Overlay, RefractionMap};
 use crate::render::{Sweep, SweepError, SweptStone};
 use crate::scene::{Companions, Film, Glare, Pose, Specimen, View};
+use crate::trace::Watch;
 use egui::ColorImage;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A stone of the comparison: the present one or the other.
@@ -42,7 +45,7 @@ pub struct Shot {
     pub glare: Glare,
     pub view: View,
     pub film: Film,
-    pub light: Arc<Lighting>,
+    pub light: ShotLight,
     /// The exposure of a render, in stops.
     pub exposure: f64,
     /// The number of bands of wavelengths of a render, at its finest.
@@ -100,14 +103,14 @@ impl Default for Paper {
 }
 
 impl PartialEq for Shot {
-    /// Returns whether both shots give the same picture. Stones and lights are compared by pointer, because they are
-    /// replaced and never changed.
+    /// Returns whether both shots give the same picture. Stones are compared by pointer, because they are replaced and never
+    /// changed.
     fn eq(&self, other: &Self) -> bool {
         if self.shows.is_pane() {
             let glass = |shot: &Self| (shot.shows, shot.film.size, shot.liquid);
             return glass(self) == glass(other) && self.behind == other.behind;
         }
-        let by_light = matches!(self.shows, Shows::Render | Shows::Refraction);
+        let by_light = self.is_under_light();
         let seen = self.shows != Shows::Diagram;
         let scoped = self.shows.scoped();
         let takes_head = scoped.as_ref().is_some_and(|scoped| scoped.takes_head);
@@ -120,12 +123,33 @@ impl PartialEq for Shot {
             && (!takes_head || self.head == other.head)
             && (!has_glare || self.glare == other.glare)
             && (seen || self.title == other.title)
-            && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
+            && (!by_light || (self.light == other.light && self.manner() == other.manner()))
             && (!by_light || (&self.copies, &self.companions) == (&other.copies, &other.companions))
     }
 }
 
 impl Shot {
+    /// Returns whether the picture depends on the light.
+    fn is_under_light(&self) -> bool {
+        matches!(self.shows, Shows::Render | Shows::Refraction)
+    }
+
+    /// Returns whether only a rough picture can be taken, because the map of the light is still being drawn.
+    pub fn waits_for_light(&self) -> bool {
+        self.is_under_light() && self.light.is_coarse()
+    }
+
+    /// Returns the same shot under its whole light, whose map is drawn where only a coarse one is at hand.
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
+    pub fn under_whole_light(&self, watch: Watch) -> Result<Cow<'_, Self>, Failure> {
+        if !self.waits_for_light() {
+            return Ok(Cow::Borrowed(self));
+        }
+        Ok(Cow::Owned(Self { light: self.light.finished(watch)?, ..self.clone() }))
+    }
+
     /// Returns the settings that only renders and refraction maps depend on, with fixed values for those that maps
     /// ignore.
     fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 7], Smoothing) {

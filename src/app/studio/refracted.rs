@@ -80,6 +80,7 @@ pub fn survey(
     [bands, places]: [u32; 2],
     watch: Watch,
 ) -> Result<(RefractionMap, Carried), Failure> {
+    let shot = &*shot.under_whole_light(watch)?;
     let job = shot.map_job(&MapDetail { bands, places, shades: 16, samples: 4 });
     let (map, carried) = run(&mut Renderer::default(), &job, watch)?.map()?;
     Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))

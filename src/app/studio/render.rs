@@ -110,6 +110,7 @@ impl ShotTracer {
     /// Fails where the backplate cannot be read, where the renderer refuses the job, where no temporary file holds
     /// the light of a large picture, or where `watch` asks to stop.
     pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, Failure> {
+        let shot = &*shot.under_whole_light(watch)?;
         let behind = self.picture_behind(shot.behind.as_ref(), &FINE, watch)?;
         let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
         let mut light = StoredLight::new(job.film.size)?;

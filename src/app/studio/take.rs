@@ -35,7 +35,8 @@ impl ShotTracer {
         Self { renderer: Renderer::new(card), ..Self::default() }
     }
 
-    /// Traces a picture with an effort, and calls `each` with each stage of a render that grows clearer.
+    /// Traces a picture with an effort, and calls `each` with each stage of a render that grows clearer. Only a rough picture
+    /// is traced under a coarse light.
     pub fn take(
         &mut self,
         (slot, shot): (Slot, &Shot),
@@ -43,6 +44,10 @@ impl ShotTracer {
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), Failure> {
+        let shot = match effort.is_refined() {
+            true => &*shot.under_whole_light(watch)?,
+            false => shot,
+        };
         match shot.shows {
             Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
@@ -142,6 +147,7 @@ mod tests {
     use crate::app::studio::effort::{Grain, Refinement};
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
+    use crate::app::studio::{ShotLight, survey};
     use crate::io::background::BackgroundRef;
     use crate::io::lighting::Lighting;
     use crate::picture::{Background, Bloom, Develop, develop, fxaa};
@@ -150,6 +156,7 @@ mod tests {
     use crate::trace::gpu::Gpu;
     use crate::trace::unwatched;
     use glam::DVec2;
+    use std::ops::ControlFlow;
     use std::path::Path;
     use std::sync::Arc;
 
@@ -168,7 +175,7 @@ mod tests {
             view: View { projection, ..eye.view(None) },
             film: eye.film([56, 40], &FramingFit::reaching(1.0)),
             whole: FramingFit::reaching(1.0).film([56, 40]),
-            light: Arc::new(Lighting::load("dome").unwrap()),
+            light: ShotLight::whole(Lighting::load("dome").unwrap()),
             bands: 16,
             jitter: true,
             behind: None,
@@ -239,6 +246,33 @@ mod tests {
         let (a, b) = (codes(a), codes(b));
         let sum: f64 = a.iter().zip(&b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
         sum / (255.0 * a.len() as f64)
+    }
+
+    #[test]
+    fn only_a_rough_picture_is_taken_under_a_coarse_light() {
+        let [whole, map] = ["dome", "ring"].map(|name| Lighting::load(name).unwrap());
+        let coarse = ShotLight::coarse(Lighting { map: map.map, ..whole.clone() });
+        let [whole, coarse] = [ShotLight::whole(whole), coarse].map(|light| Shot {
+            light,
+            bands: 3,
+            ..shot(Shows::Render, None)
+        });
+        let image = |shot: &Shot, refinement| taken(&mut ShotTracer::default(), shot, 3, refinement).image;
+        assert_ne!(image(&coarse, None), image(&whole, None), "a rough picture takes what is at hand");
+        let refinement = Some(Refinement { samples: 2, after: 0, unresolved: 2e-2 });
+        assert_eq!(image(&coarse, refinement), image(&whole, refinement), "a refined one waits");
+        let exported = |shot: &Shot| {
+            let mut exported = ShotTracer::default().export(shot, &unwatched).unwrap();
+            exported.image(shot, &unwatched).unwrap()
+        };
+        assert_eq!(exported(&coarse), exported(&whole), "an export waits");
+        let [a, b] = [&coarse, &whole].map(|shot| {
+            let shot = Shot { shows: Shows::Refraction, ..shot.clone() };
+            survey(&shot, [1, 1], &unwatched).unwrap().0
+        });
+        assert!(a == b, "a map in files waits");
+        let stop = |_: f64| ControlFlow::Break(());
+        assert!(matches!(coarse.under_whole_light(&stop), Err(Failure::Stopped)));
     }
 
     #[test]

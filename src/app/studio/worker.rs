@@ -194,8 +194,12 @@ impl Worker {
         self.sweeps(&turn.order, |ask| ask.points.len(), &watch)
     }
 
-    /// Returns whether a shot still needs a picture of this grade.
+    /// Returns whether a shot still needs a picture of this grade. Under a coarse light only rough pictures are taken; a newer
+    /// order brings the whole light.
     fn is_wanted(&self, slot: &Slot, shot: &Shot, grade: Grade) -> bool {
+        if grade > Grade::Rough && shot.waits_for_light() {
+            return false;
+        }
         self.pictures.get(slot).is_none_or(|(done, known)| done != shot || *known < grade)
     }
 
@@ -219,7 +223,8 @@ impl Worker {
         let (mailbox, number) = (Arc::clone(&self.mailbox), turn.number);
         let watch = move |_: f64| stop_if(mailbox.newest.load(Ordering::SeqCst) != number);
         for (slot, shot) in &turn.order.shots {
-            if !self.camera.is_slow_render(shot) || self.sharp.get(slot) == Some(shot) {
+            let is_sharp = self.sharp.get(slot) == Some(shot);
+            if is_sharp || shot.waits_for_light() || !self.camera.is_slow_render(shot) {
                 continue;
             }
             self.mailbox.sharpens.store(true, Ordering::SeqCst);

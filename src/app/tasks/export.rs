@@ -109,7 +109,7 @@ impl ExportPlan {
              map's places",
             self.selection.bands,
             self.selection.places,
-            self.shot.light.light.name,
+            self.shot.light.name(),
             100.0 * carried.behind,
             100.0 * carried.single
         );
@@ -129,7 +129,7 @@ impl ExportPlan {
         let description = format!(
             "{}: render; light {}{}; {tracer}, unresolved {unresolved:.2e}",
             self.shot.title,
-            self.shot.light.light.name,
+            self.shot.light.name(),
             mixture_note(self.shot.strength)
         );
         render.write(&shot, path, &description, watch)

@@ -27,7 +27,7 @@ use crate::app::model::saving::{SaveRequest, Stamp};
 use crate::app::model::task::CopyRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
-use crate::app::studio::{Slot, TakenPicture, Wake};
+use crate::app::studio::{ShotLight, Slot, TakenPicture, Wake};
 use crate::io::lighting::Lighting;
 use crate::io::{Failure, goal_file};
 use crate::scene::{RingPlan, Specimen};
@@ -153,9 +153,11 @@ impl Outside {
     fn load_light(&mut self, name: String) {
         let why = fault(&format!("{name}: loading the light failed"));
         let failed = Computed::Light(name.clone(), Err(why));
-        self.run(Key::Light, failed, move |_| {
-            let loaded = Lighting::load(&name).map(Arc::new).map_err(Failure::from);
-            Computed::Light(name, loaded)
+        self.run(Key::Light, failed, move |job| {
+            let at_hand =
+                |coarse| job.send(Computed::Light(name.clone(), Ok(ShotLight::coarse(coarse))).into());
+            let loaded = Lighting::load_watched(&name, &|done| job.watch(done), at_hand);
+            Computed::Light(name, loaded.map(ShotLight::whole))
         });
     }
 

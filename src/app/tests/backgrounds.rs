@@ -2,7 +2,11 @@
 
 use super::*;
 use crate::app::liquid::Liquid;
+use crate::app::model::action::Computed;
+use crate::app::model::command::Command;
 use crate::app::model::workspace::Pane;
+use crate::app::studio::ShotLight;
+use crate::io::lighting::Lighting;
 use crate::picture::RefractionMap;
 use crate::picture::liquid_glass::PaneQuality;
 
@@ -277,4 +281,38 @@ fn a_world_that_is_being_drawn_is_shown_coarsely_at_once_and_the_status_line_say
     let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
     let corner = shown.taken.image.pixels[0];
     assert!(shown.grade == Grade::Rough && corner.a() == 255 && corner.b() > 0, "{corner:?}");
+}
+
+#[test]
+fn a_light_that_is_being_drawn_is_shown_coarsely_at_once_and_nothing_fine_is_made_of_it() {
+    let pane = Pane { shows: Shows::Render, own: None, is_near: false, stone: None };
+    let workspace = Workspace { layout: PaneLayout::One, panes: [pane; 4], ..Workspace::default() };
+    let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(700.0, 300.0));
+    // The light is loaded by this test, so that each state lasts until it has been seen.
+    let model = &mut bench.harness.state_mut().model;
+    (model.document.work.settings.wavelengths, model.document.work.settings.light) = (3, "sunset".to_owned());
+    model.session.light.loading = Some("sunset".to_owned());
+    let come = |bench: &mut Bench, light: &ShotLight| {
+        let answer = Computed::Light("sunset".to_owned(), Ok(light.clone()));
+        bench.harness.state_mut().act(answer);
+        let slot = (0, Which::Present);
+        let is_shown = |shown: &Shown| shown.shot.light == *light;
+        bench.wait(|editor| editor.views.gallery.traced.get(&slot).is_some_and(is_shown));
+    };
+    let says = |bench: &Bench, what: &str| bench.harness.query_by_label_contains(what).is_some();
+    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
+    assert!(says(&bench, "loading the light… ·"), "the light before is shown");
+    let coarse = ShotLight::coarse(Lighting::load("ring").unwrap());
+    come(&mut bench, &coarse);
+    assert!(is_drawn(&bench.picture(0)) && says(&bench, "drawing the light… ·"));
+    bench.wait(|editor| editor.studio.is_idle());
+    assert!(!bench.editor().is_idle() && says(&bench, "drawing the light… ·"));
+    assert!(bench.editor().views.gallery.traced[&(0, Which::Present)].grade == Grade::Rough);
+    // No picture of a coarse light leaves the program.
+    bench.harness.state_mut().act(Command::CopyPicture);
+    bench.harness.run_steps(2);
+    assert!(says(&bench, "still being drawn"));
+    come(&mut bench, &ShotLight::whole(Lighting::load("ring").unwrap()));
+    bench.settle();
+    assert!(bench.editor().views.gallery.traced[&(0, Which::Present)].grade == Grade::Fine);
 }

@@ -3,6 +3,7 @@
 use crate::optics::LUMINANCE;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// The places of the samples in a pixel where neighbours differ, no two in one row or column.
 const PLACES: [DVec2; 4] =
@@ -17,9 +18,17 @@ const EVEN: f64 = 0.06;
 /// The light at the middle of the scale of brightness.
 const MIDDLE: f64 = 0.3;
 
-/// Draws a picture row by row. `sample` returns the light at a place, in pixels, averaged over a share of a pixel.
-pub(super) fn drawn([width, height]: [usize; 2], sample: impl Fn(DVec2, f64) -> DVec3 + Sync) -> Vec<DVec3> {
-    let corner = |k: usize| DVec2::new((k % width) as f64, (k / width) as f64);
+/// Draws some rows of a picture, one after the other. `sample` returns the light at a place, in pixels from the first corner
+/// of the whole picture, averaged over a share of a pixel.
+pub(super) fn drawn(
+    [width, height]: [usize; 2],
+    rows: Range<usize>,
+    sample: impl Fn(DVec2, f64) -> DVec3 + Sync,
+) -> Vec<DVec3> {
+    // Edges are smoothed by the rows beside them.
+    let (above, below) = (rows.start.saturating_sub(1), (rows.end + 1).min(height));
+    let height = below - above;
+    let corner = |k: usize| DVec2::new((k % width) as f64, (above + k / width) as f64);
     let first: Vec<DVec3> =
         (0..width * height).into_par_iter().map(|k| sample(corner(k) + 0.5, 1.0)).collect();
     let shades: Vec<f32> = first.iter().map(|&light| shade(light)).collect();
@@ -37,7 +46,7 @@ pub(super) fn drawn([width, height]: [usize; 2], sample: impl Fn(DVec2, f64) -> 
         }
         PLACES.iter().map(|&place| sample(corner(k) + place, SHARE)).sum::<DVec3>() / PLACES.len() as f64
     };
-    (0..width * height).into_par_iter().map(light).collect()
+    ((rows.start - above) * width..(rows.end - above) * width).into_par_iter().map(light).collect()
 }
 
 /// Returns the brightness of light on a scale that ends at 1.

@@ -17,13 +17,13 @@ use drawing::drawn;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// The tangent of half the angle across a photograph of span 1: 60 degrees across.
 const HALF_ACROSS: f64 = 0.577_350_269_189_625_8;
 
-/// The rows of a part of a photograph that is taken in parts.
-const PART_ROWS: u32 = 64;
+/// The rows of a part of a picture that is drawn in parts.
+const PART_ROWS: usize = 64;
 
 /// A world that the program draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -102,20 +102,15 @@ impl World {
         mut go_on: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Option<Panorama> {
         let size = [width.max(1), height.max(1)];
-        let mut pixels = Vec::with_capacity(size[0] as usize * size[1] as usize);
-        for first in (0..size[1]).step_by(PART_ROWS as usize) {
-            if go_on(f64::from(first) / f64::from(size[1])).is_break() {
+        let [across, down] = size.map(|side| side as usize);
+        let mut pixels = Vec::with_capacity(across * down);
+        for first in (0..down).step_by(PART_ROWS) {
+            if go_on(first as f64 / down as f64).is_break() {
                 return None;
             }
-            let end = (first + PART_ROWS).min(size[1]);
-            // Edges are smoothed by the rows beside them.
-            let (above, below) = (u32::from(first > 0), u32::from(end < size[1]));
-            let start = first - above;
-            let part = self.taken([size[0], end + below - start], |at| {
-                self.seen_at(at + DVec2::new(0.0, f64::from(start)), size, span)
-            });
-            let row = size[0] as usize;
-            pixels.extend(&part.pixels[above as usize * row..part.pixels.len() - below as usize * row]);
+            let rows = first..(first + PART_ROWS).min(down);
+            let part = self.drawn([across, down], rows, |at| self.seen_at(at, size, span));
+            pixels.extend(part.into_iter().map(|light| light.as_vec3().to_array()));
         }
         Some(Panorama { width: size[0], height: size[1], pixels })
     }
@@ -140,7 +135,8 @@ impl World {
     }
 
     fn taken(self, [width, height]: [u32; 2], toward: impl Fn(DVec2) -> (DVec3, f64) + Sync) -> Panorama {
-        let light = self.drawn([width as usize, height as usize], toward);
+        let size = [width, height].map(|side| side as usize);
+        let light = self.drawn(size, 0..size[1], toward);
         Panorama {
             width,
             height,
@@ -148,10 +144,15 @@ impl World {
         }
     }
 
-    /// Draws any view of the world, row by row. `toward` gives for a place, in pixels from the first corner, the unit
-    /// direction and the angle in radians that a pixel spans there.
-    pub fn drawn(self, size: [usize; 2], toward: impl Fn(DVec2) -> (DVec3, f64) + Sync) -> Vec<DVec3> {
-        drawn(size, |at, share| {
+    /// Draws some rows of any view of the world, one after the other. `toward` gives for a place, in pixels from the first
+    /// corner of the whole view, the unit direction and the angle in radians that a pixel spans there.
+    pub fn drawn(
+        self,
+        size: [usize; 2],
+        rows: Range<usize>,
+        toward: impl Fn(DVec2) -> (DVec3, f64) + Sync,
+    ) -> Vec<DVec3> {
+        drawn(size, rows, |at, share| {
             let (direction, footprint) = toward(at);
             self.radiance(direction, footprint * share)
         })

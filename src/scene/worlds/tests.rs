@@ -131,7 +131,7 @@ fn the_viewer_of_a_light_sees_the_middle_of_the_photograph_behind_the_stones() {
 #[test]
 fn a_photograph_taken_in_parts_is_the_one_taken_at_once_and_can_be_stopped() {
     for (_, world) in World::NAMES {
-        let size = [24, 2 * PART_ROWS + 9];
+        let size = [24, 2 * PART_ROWS as u32 + 9];
         let mut parts = 0;
         let whole = world.picture_in_parts(size, 2.0, |_| {
             parts += 1;

@@ -79,7 +79,8 @@ pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
     open_read(model, tasks);
     let light = &mut model.session.light;
     let name = &model.document.work.settings.light;
-    if light.tried != *name && light.loading.as_ref() != Some(name) {
+    // A light that is being loaded takes the place of the last one, even where that one is wanted again.
+    if light.loading.as_ref().unwrap_or(&light.tried) != name {
         light.loading = Some(name.clone());
         tasks.push(Task::LoadLight(name.clone()));
     }

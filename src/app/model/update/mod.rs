@@ -17,8 +17,10 @@ mod views;
 use super::Model;
 use super::action::{Action, Computed, FrameEnd, NoteAction};
 use super::figures::ShownFigures;
+use super::session::Session;
 use super::task::Task;
-use crate::app::studio::Which;
+use crate::app::studio::{ShotLight, Which};
+use crate::io::Failure;
 use std::sync::Arc;
 
 /// Changes a model by an action; returns the tasks that follow from it.
@@ -101,16 +103,7 @@ fn noted(model: &mut Model, note: NoteAction) {
 fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
     let Model { session, .. } = model;
     match computed {
-        Computed::Light(name, loaded) => {
-            match loaded {
-                Ok(lighting) => {
-                    lighting.warnings.iter().for_each(|warning| session.notes.say(warning));
-                    (session.light.name, session.light.lighting) = (name.clone(), lighting);
-                }
-                Err(why) => session.notes.trouble(format!("{why}; the light stays as it was")),
-            }
-            (session.light.tried, session.light.loading) = (name, None);
-        }
+        Computed::Light(name, loaded) => take_light(session, name, loaded),
         Computed::Figures(which, order, grade, figures) => {
             // The document or the comparison may have ended after the figures were ordered.
             let is_shown = match which {
@@ -150,6 +143,21 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
             session.ordered = (*order).clone();
             tasks.push(Task::Trace(order));
         }
+    }
+}
+
+/// Takes a light that has been loaded, or the reason why it could not be. A coarse one is shown until the whole one comes.
+fn take_light(session: &mut Session, name: String, loaded: Result<ShotLight, Failure>) {
+    let is_coarse = loaded.as_ref().is_ok_and(ShotLight::is_coarse);
+    match loaded {
+        Ok(light) => {
+            light.warnings().iter().for_each(|warning| session.notes.say(warning));
+            (session.light.name, session.light.at_hand) = (name.clone(), light);
+        }
+        Err(why) => session.notes.trouble(format!("{why}; the light stays as it was")),
+    }
+    if !is_coarse {
+        (session.light.tried, session.light.loading) = (name, None);
     }
 }
 

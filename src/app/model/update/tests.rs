@@ -17,11 +17,12 @@ use crate::app::model::saving::Stamp;
 use crate::app::model::task::WindowTask;
 use crate::app::model::workspace::Workspace;
 use crate::app::model::{Action, Model, Task};
-use crate::app::studio::{Order, Paper, Which};
+use crate::app::studio::{Order, Paper, ShotLight, Which};
 use crate::app::tasks::autosave::Autosave;
 use crate::app::tasks::open;
 use crate::io::Failure;
 use crate::io::cut_file;
+use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
 
@@ -319,13 +320,13 @@ fn what_the_program_saves_itself_is_no_change_by_others() {
 #[test]
 fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     let mut bench = Bench::new();
-    let before = bench.model.session.light.lighting.clone();
+    let before = bench.model.session.light.at_hand.clone();
     let is_load = |task: &Task| matches!(task, Task::LoadLight(name) if name == "nowhere");
     assert!(has(&bench.act(Edit::Setting(SettingChange::Light("nowhere".to_owned()))), is_load));
     assert!(bench.end_frame(false).iter().all(|task| !is_load(task)), "it is being loaded");
     bench.act(Computed::Light("nowhere".to_owned(), Err(Failure::Input("a fault".to_owned()))));
     assert!(bench.model.session.light.loading.is_none());
-    assert!(std::sync::Arc::ptr_eq(&before, &bench.model.session.light.lighting));
+    assert!(before == bench.model.session.light.at_hand);
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("a fault; "));
     assert!(!has(&bench.end_frame(false), is_load), "it is not loaded again and again");
     // Exports name the light that is shown.
@@ -333,6 +334,33 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     bench.act(Edit::Setting(SettingChange::Light("dome".to_owned())));
     bench.act(Computed::Light("dome".to_owned(), Ok(before)));
     assert_eq!(export_plan(&bench.model).light, Path::new("dome"));
+}
+
+#[test]
+fn a_coarse_light_is_shown_until_the_whole_one_comes_and_another_light_takes_its_place() {
+    let mut bench = Bench::new();
+    let lighting = || Lighting::load("white").unwrap();
+    let loads =
+        |tasks: &[Task], light: &str| has(tasks, |t| matches!(t, Task::LoadLight(name) if name == light));
+    assert!(loads(&bench.act(Edit::Setting(SettingChange::Light("sunset".to_owned()))), "sunset"));
+    let coarse = ShotLight::coarse(lighting());
+    bench.act(Computed::Light("sunset".to_owned(), Ok(coarse.clone())));
+    let light = bench.model.session.light.clone();
+    assert!(light.at_hand == coarse && light.name == "sunset");
+    assert_eq!(light.loading.as_deref(), Some("sunset"), "the whole one is still to come");
+    assert!(export_plan(&bench.model).shot.waits_for_light());
+    assert!(!loads(&bench.end_frame(false), "sunset"), "it is being loaded");
+    bench.act(Computed::Light("sunset".to_owned(), Ok(ShotLight::whole(lighting()))));
+    let light = bench.model.session.light.clone();
+    assert!(
+        light.at_hand != coarse
+            && light.loading.is_none()
+            && !export_plan(&bench.model).shot.waits_for_light()
+    );
+    // The light before is wanted again while another is being loaded.
+    bench.act(Edit::Setting(SettingChange::Light("city".to_owned())));
+    bench.act(Computed::Light("city".to_owned(), Ok(coarse)));
+    assert!(loads(&bench.act(Edit::Setting(SettingChange::Light("sunset".to_owned()))), "sunset"));
 }
 
 #[test]
