@@ -7,6 +7,7 @@
 use super::interval::Interval;
 use crate::math::{Affine, area, clip};
 use crate::trace::beam::Beams;
+use crate::trace::{Stopped, Watch, go_on};
 use glam::{DMat2, DVec2, IVec2};
 
 /// The least side of a cell, girdle radii, which bounds the number of cells. In stones of more than 72 mm, cells are
@@ -15,6 +16,9 @@ const LEAST_SIDE: f64 = 0.002;
 
 /// A cell that holds less than this part of its own area of the face counts as empty: rounding can leave a corner in it.
 const EMPTY: f64 = 1e-9;
+
+/// The number of polygons that are clipped between two looks at whether to stop: some milliseconds.
+const LEAVES: usize = 4096;
 
 /// The brightness that an eye sees in one cell.
 #[derive(Debug, Clone, Copy, Default)]
@@ -48,12 +52,16 @@ pub(super) struct EyeGrid {
 
 impl EyeGrid {
     /// Averages the brightness of beams over cells of this side, girdle radii. `bright` is the brightness through each beam.
-    pub fn of(beams: &Beams, bright: &[f64], side: f64) -> Self {
+    /// Fails where `watch` asks to stop.
+    pub fn of(beams: &Beams, bright: &[f64], side: f64, watch: Watch) -> Result<Self, Stopped> {
         let copies = beams.symmetry.copies();
         let mut grid = Self::over(beams, &copies, side.max(LEAST_SIDE));
         let mut clipper = Clipper::default();
         let mut corners = vec![];
-        for id in beams.leaves() {
+        for (number, id) in beams.leaves().enumerate() {
+            if number % LEAVES == 0 {
+                go_on(watch, f64::from(id) / beams.len() as f64)?;
+            }
             let beam = beams.get(id);
             for copy in &copies {
                 corners.clear();
@@ -77,7 +85,7 @@ impl EyeGrid {
                 },
             };
         }
-        grid
+        Ok(grid)
     }
 
     /// Makes empty cells over all outlines.

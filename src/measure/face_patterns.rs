@@ -13,6 +13,7 @@ use super::virtual_facets::VirtualFacets;
 use crate::cut::FacetZones;
 use crate::math::Polytope;
 use crate::trace::beam::{Beam, Beams};
+use crate::trace::{Stopped, Watch, go_on};
 use serde::Serialize;
 
 /// The measures of the pattern on the face.
@@ -37,25 +38,32 @@ pub struct PatternMeasures {
 }
 
 impl PatternMeasures {
-    /// Takes the measures of exact beams; `fans` are those of [`Beams::fans`].
+    /// Takes the measures of exact beams; `fans` are those of [`Beams::fans`]. Fails where `watch` asks to stop.
     pub(super) fn of(
         beams: &Beams,
         polytope: &Polytope,
         fans: &[f64],
         (settings, pattern): (&MeasureSettings, &PatternSettings),
-    ) -> Self {
+        watch: Watch,
+    ) -> Result<Self, Stopped> {
         let head_deg = settings.head_deg;
         let resolves = pattern.resolves();
-        let grid = EyeGrid::of(beams, &brightness(beams, head_deg), resolves);
-        let facets = VirtualFacets::of(beams, polytope);
-        Self {
+        let bright = brightness(beams, head_deg);
+        let grid = EyeGrid::of(beams, &bright, resolves, &|done| watch(0.3 * done))?;
+        let facets = VirtualFacets::of(beams, polytope, &|done| watch(0.3 + 0.4 * done))?;
+        go_on(watch, 0.7)?;
+        let crushed_ice = facets.smaller_than(SHAPE_IS_SEEN * resolves);
+        go_on(watch, 0.8)?;
+        let fire_seen = fire_seen(&facets.areas(), beams, fans, (settings, resolves));
+        go_on(watch, 0.9)?;
+        Ok(Self {
             eye_contrast: rms_contrast(grid.cells.iter().copied()),
             patch_size: grid.patch_size(),
-            crushed_ice: facets.smaller_than(SHAPE_IS_SEEN * resolves),
-            fire_seen: fire_seen(&facets.areas(), beams, fans, (settings, resolves)),
+            crushed_ice,
+            fire_seen,
             bow_tie: bow_tie(beams, polytope, head_deg),
             fish_eye: fish_eye(beams, polytope),
-        }
+        })
     }
 }
 

@@ -14,6 +14,7 @@ use super::scintillation::Scintillation;
 use crate::math::Polytope;
 use crate::scene::DomeLight;
 use crate::trace::beam::{Beam, Beams};
+use crate::trace::{Stopped, Watch, go_on};
 use serde::{Deserialize, Serialize};
 
 /// The angle in degrees that an eye's pupil of 3.3 mm fills at 250 mm. Colours that spread over less enter the eye
@@ -128,9 +129,20 @@ pub struct LightMeasures {
 }
 
 impl LightMeasures {
-    /// Takes the measures of exact beams. `polytope` must be the stone that was traced.
-    pub fn of(beams: &Beams, polytope: &Polytope, settings: &MeasureSettings) -> Self {
+    /// Takes the measures of exact beams. `polytope` must be the stone that was traced. Of millions of beams this takes
+    /// seconds.
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
+    pub fn of(
+        beams: &Beams,
+        polytope: &Polytope,
+        settings: &MeasureSettings,
+        watch: Watch,
+    ) -> Result<Self, Stopped> {
+        go_on(watch, 0.0)?;
         let fans = beams.fans(polytope, settings.indices);
+        go_on(watch, 0.1)?;
         let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
         let mut sums = ExitSums::new(settings.domes.len());
         for beam in beams.iter() {
@@ -150,18 +162,24 @@ impl LightMeasures {
             sums.waiting += waits;
         }
         let unresolved = beams.unresolved();
-        let (extinction, contrast) =
-            (extinction(beams, settings.head_deg), contrast(beams, settings.head_deg));
+        go_on(watch, 0.2)?;
+        let extinction = extinction(beams, settings.head_deg);
+        go_on(watch, 0.3)?;
+        let contrast = contrast(beams, settings.head_deg);
         let absorbed = if beams.medium.is_clear() { 0.0 } else { unresolved };
         let absorbed = Interval::from(sums.absorbed, absorbed);
-        let pattern = settings.pattern.as_ref();
-        let pattern = pattern.map(|pattern| PatternMeasures::of(beams, polytope, &fans, (settings, pattern)));
+        let rest = |done: f64| watch(0.4 + 0.6 * done);
+        let pattern = settings
+            .pattern
+            .as_ref()
+            .map(|pattern| PatternMeasures::of(beams, polytope, &fans, (settings, pattern), &rest))
+            .transpose()?;
         let is_cut_short = beams.is_cut_short;
-        LightMeasures {
+        Ok(LightMeasures {
             pattern,
             is_cut_short,
             ..sums.finish(settings, unresolved, [extinction, contrast, absorbed])
-        }
+        })
     }
 
     /// Returns a sentence that says how much light was left where a limit of beams or of memory ended the work early, and which

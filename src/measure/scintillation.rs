@@ -7,6 +7,7 @@ use super::interval::Interval;
 use super::pattern_settings::PatternSettings;
 use crate::scene::View;
 use crate::trace::beam::Beams;
+use crate::trace::{Stopped, Watch};
 use glam::{DQuat, DVec2};
 use serde::Serialize;
 
@@ -53,21 +54,25 @@ fn directions() -> impl Iterator<Item = DVec2> {
 
 impl Scintillation {
     /// Compares the beams of a view with those of the same stone in [`rocked_views`], which are asked for one after the other,
-    /// so that no more than one of them needs to be kept.
+    /// so that no more than one of them needs to be kept. `watch` is called with the part of the views that is done.
     ///
     /// # Errors
-    /// The first error of `rocked`.
-    pub fn of<E>(
+    /// Fails with the first error of `rocked`, or where `watch` asks to stop.
+    pub fn of<E: From<Stopped>>(
         beams: &Beams,
         rocked: impl IntoIterator<Item = Result<Beams, E>>,
         head_deg: f64,
         pattern: &PatternSettings,
+        watch: Watch,
     ) -> Result<Self, E> {
-        let grid = |beams: &Beams| EyeGrid::of(beams, &brightness(beams, head_deg), pattern.resolves());
-        let start = grid(beams);
+        let grid = |beams: &Beams, views: u32| {
+            let done = f64::from(views) / f64::from(DIRECTIONS);
+            EyeGrid::of(beams, &brightness(beams, head_deg), pattern.resolves(), &|_| watch(done))
+        };
+        let start = grid(beams, 0)?;
         let mean = start.mean();
-        let compared = rocked.into_iter().map(|beams| {
-            let changes = Changes::of(&start, grid(&beams?));
+        let compared = (1..).zip(rocked).map(|(views, beams)| {
+            let changes = Changes::of(&start, grid(&beams?, views)?);
             Ok((changes.mean(mean), changes.size(mean)))
         });
         let each: Vec<(Interval, Interval)> = compared.collect::<Result<_, E>>()?;

@@ -8,6 +8,7 @@ use super::interval::Interval;
 use crate::math::random_bits::{GAMMA, mixed};
 use crate::math::{Basis, Plane, Polytope};
 use crate::trace::beam::Beams;
+use crate::trace::{Stopped, Watch, go_on};
 use glam::{DMat2, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
@@ -24,14 +25,15 @@ pub(super) struct VirtualFacets<'a> {
 }
 
 impl<'a> VirtualFacets<'a> {
-    /// Finds the parts that belong together. `polytope` must be the stone that was traced.
-    pub fn of(beams: &'a Beams, polytope: &Polytope) -> Self {
+    /// Finds the parts that belong together. `polytope` must be the stone that was traced. Fails where `watch` asks to stop.
+    pub fn of(beams: &'a Beams, polytope: &Polytope, watch: Watch) -> Result<Self, Stopped> {
         let copies = beams.symmetry.copies();
         let images: Vec<Vec<u64>> = copies.iter().map(|copy| images(polytope, &beams.view, copy)).collect();
         let mut numbers: HashMap<u64, u32> = HashMap::with_capacity(beams.len());
         let (mut own, mut others) = (Vec::with_capacity(beams.len()), vec![]);
         // The domain itself comes first. One copy after the other takes a fraction of the memory of all at once.
         for (copy, images) in images.iter().enumerate() {
+            go_on(watch, copy as f64 / copies.len() as f64)?;
             let hashes = hashed_lists(beams, images);
             if copy == 0 {
                 own.extend(hashes.into_iter().map(|hash| {
@@ -43,7 +45,7 @@ impl<'a> VirtualFacets<'a> {
             let found = (0..).zip(&hashes).filter_map(|(id, hash)| Some((id, *numbers.get(hash)?)));
             others.extend(found);
         }
-        Self { beams, count: numbers.len(), own, others }
+        Ok(Self { beams, count: numbers.len(), own, others })
     }
 
     /// Adds up a number of each beam over the parts of whole virtual facets, and returns for each beam the sum of the virtual facet that
@@ -154,7 +156,7 @@ mod tests {
         let (with, without) = (beams(&stone, true), beams(&stone, false));
         assert!(with.symmetry.order() == 16 && without.symmetry.order() == 1);
         let whole = |beams: &Beams| {
-            let areas = VirtualFacets::of(beams, &stone).areas();
+            let areas = VirtualFacets::of(beams, &stone, &unwatched).unwrap().areas();
             let lists = (0..beams.len() as u32).map(|id| beams.facets(id));
             lists.zip(areas).collect::<HashMap<Vec<u32>, Interval>>()
         };
@@ -179,7 +181,7 @@ mod tests {
     fn every_facet_is_smaller_than_the_face_and_none_than_a_point() {
         let stone = stone();
         let beams = beams(&stone, true);
-        let facets = VirtualFacets::of(&beams, &stone);
+        let facets = VirtualFacets::of(&beams, &stone, &unwatched).unwrap();
         let undecided = beams.undecided(&beams.strongest_exits());
         let (none, all) = (facets.smaller_than(0.0), facets.smaller_than(4.0));
         assert_eq!(none, Interval::from(0.0, undecided));

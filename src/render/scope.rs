@@ -17,6 +17,9 @@ use std::sync::Arc;
 /// many beams only if all together take a bearable time.
 const ROCKED_PARTS: usize = 8;
 
+/// The part of the time of a view's measures that tracing its beams takes, roughly.
+const BEAMS_SHARE: f64 = 0.6;
+
 impl Renderer {
     /// Traces a picture in a scope, and hands out its rows.
     pub(super) fn scope<E: From<RenderError>>(
@@ -87,20 +90,23 @@ impl Renderer {
         let MeasuresProduct { settings, medium, derivatives } = product;
         let (body, polytope) = job.convex()?;
         let rocking = settings.pattern.and_then(|pattern| Some((pattern, pattern.rock_deg?)));
-        let share = |done: f64| watch(if rocking.is_some() { 0.2 * done } else { done });
+        let own = |done: f64| watch(if rocking.is_some() { 0.2 * done } else { done });
+        let share = |done: f64| own(BEAMS_SHARE * done);
         // Derivatives take four times the memory of the beams and more, and each rocked view's beams stand beside these.
         let parts = 1 + 4 * usize::from(!derivatives.is_empty()) + usize::from(rocking.is_some());
         let options = job.quality.beams.with_part_of_memory(parts);
         let beams = self.beams.of((body, polytope), *medium, &job.view, &options, &share)?;
         let derivatives =
             derivatives.iter().map(|name| name.derivatives(&beams, polytope, settings)).collect();
-        let mut measures = LightMeasures::of(&beams, polytope, settings);
+        let mut measures = LightMeasures::of(&beams, polytope, settings, &|done| {
+            own(BEAMS_SHARE + (1.0 - BEAMS_SHARE) * done)
+        })?;
         if let Some((pattern, rock_deg)) = rocking {
             let rest = |done: f64| watch(0.2 + 0.8 * done);
             let mut is_cut_short = false;
             let rocked = job.rocked(polytope, *medium, rock_deg, &rest);
             let rocked = rocked.inspect(|beams| is_cut_short |= beams.as_ref().is_ok_and(|b| b.is_cut_short));
-            let found = Scintillation::of(&beams, rocked, settings.head_deg, &pattern)?;
+            let found = Scintillation::of(&beams, rocked, settings.head_deg, &pattern, &rest)?;
             measures.is_cut_short |= is_cut_short;
             measures.scintillation = Some(found);
         }

@@ -31,6 +31,14 @@ pub fn unwatched(_done: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
+/// Calls a watch with the part that is done, 0 to 1.
+///
+/// # Errors
+/// Fails where the watch asks to stop.
+pub fn go_on(watch: Watch, done: f64) -> Result<(), Stopped> {
+    if watch(done).is_break() { Err(Stopped) } else { Ok(()) }
+}
+
 /// The error of work that its [`Watch`] has stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("stopped before it was done")]

@@ -231,7 +231,7 @@ fn a_stone_that_catches_light_stops_at_the_memory_that_beams_may_take_and_every_
             let settings = MeasureSettings { pattern: Some(PatternSettings::usual(3.25)), ..settings };
             let measured = |beams: &beam::Beams| {
                 assert!(beams.is_cut_short && beams.unresolved() > 1e-9, "{}", beams.unresolved());
-                LightMeasures::of(beams, &stone.polytope, &settings)
+                LightMeasures::of(beams, &stone.polytope, &settings, &unwatched).unwrap()
             };
             let (few, more) = (traced(8 << 20), traced(24 << 20));
             // The limit is looked at after some thousand fronts.

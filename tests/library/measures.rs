@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use brillianteer::math::{Plane, Polytope};
-use brillianteer::measure::{Interval, LightMeasures, MeasureSettings, hemisphere_return};
+use brillianteer::measure::{Interval, LightMeasures, MeasureSettings, PatternSettings, hemisphere_return};
 use brillianteer::optics::{line, material};
 use brillianteer::scene::{DomeLight, Medium, Stone, View, elevation_deg};
 use brillianteer::trace::beam::{BeamOptions, trace};
@@ -10,6 +10,8 @@ use brillianteer::trace::ray::{Camera, RayOptions, StoneTracer};
 use brillianteer::trace::unwatched;
 use glam::DVec2;
 use proptest::prelude::*;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 /// The indices of diamond at B and G, and at D.
 const DIAMOND: [f64; 3] = [2.4075, 2.4512, 2.4175];
@@ -27,11 +29,37 @@ fn measures(
 ) -> LightMeasures {
     let options = BeamOptions { unresolved, ..BeamOptions::default() };
     let beams = trace(polytope, medium, view, &options, &unwatched).unwrap();
-    LightMeasures::of(&beams, polytope, settings)
+    LightMeasures::of(&beams, polytope, settings, &unwatched).unwrap()
 }
 
 fn modern() -> Stone {
     built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96))
+}
+
+#[test]
+fn measures_of_beams_say_how_far_they_are_and_stop_wherever_their_watch_asks_them_to() {
+    let stone = modern();
+    let (medium, options) =
+        (Medium::clear(DIAMOND[2]), BeamOptions { unresolved: 0.05, ..BeamOptions::default() });
+    let beams = trace(&stone.polytope, medium, &View::default(), &options, &unwatched).unwrap();
+    let settings = MeasureSettings { pattern: Some(PatternSettings::usual(3.25)), ..usual() };
+    // Stops at a call of the watch, and returns the parts that were done at each call until then.
+    let stopped_at = |last: usize| {
+        let calls = Mutex::new(vec![]);
+        let watch = |done: f64| {
+            let mut calls = calls.lock().unwrap();
+            calls.push(done);
+            if calls.len() > last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let found = LightMeasures::of(&beams, &stone.polytope, &settings, &watch);
+        (found.is_err(), calls.into_inner().unwrap())
+    };
+    let (is_stopped, all) = stopped_at(usize::MAX);
+    assert!(!is_stopped && all.len() >= 10 && all.is_sorted(), "{all:?}");
+    assert!(all.iter().all(|done| (0.0..=1.0).contains(done)), "{all:?}");
+    for last in 0..all.len() {
+        assert_eq!(stopped_at(last), (true, all[..=last].to_vec()), "it goes on after it was stopped");
+    }
 }
 
 /// All intervals of some measures, with their names.
@@ -73,7 +101,7 @@ proptest! {
         let beams = trace(&stone.polytope, Medium::grey(index, absorption), &view, &options, &unwatched).unwrap();
         let domes = ["even", "cos", "even@90", "cos2@90"].map(|text| text.parse::<DomeLight>().unwrap());
         let settings = MeasureSettings { domes: domes.to_vec(), ..usual() };
-        let found = LightMeasures::of(&beams, &stone.polytope, &settings);
+        let found = LightMeasures::of(&beams, &stone.polytope, &settings, &unwatched).unwrap();
         let surface = beams.iter().filter(|beam| beam.is_surface());
         let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
         let from_below = surface.filter(|beam| elevation_deg(beam.exit, beams.zenith) < 0.0);
@@ -118,7 +146,7 @@ fn symmetry_changes_no_measure() {
         let medium = Medium::clear(DIAMOND[2]);
         let beams = trace(&stone.polytope, medium, &View::default(), &options, &unwatched).unwrap();
         assert!(symmetry == (beams.symmetry.order() > 1));
-        LightMeasures::of(&beams, &stone.polytope, &usual())
+        LightMeasures::of(&beams, &stone.polytope, &usual(), &unwatched).unwrap()
     };
     let (with, without) = (of(true), of(false));
     let open = with.unresolved.max(without.unresolved);

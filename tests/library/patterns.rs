@@ -45,7 +45,7 @@ fn stretched(factor: DVec3) -> Polytope {
 }
 
 fn pattern(beams: &Beams, stone: &Polytope, unit_mm: f64) -> PatternMeasures {
-    LightMeasures::of(beams, stone, &settings(unit_mm)).pattern.unwrap()
+    LightMeasures::of(beams, stone, &settings(unit_mm), &unwatched).unwrap().pattern.unwrap()
 }
 
 fn is_within(inner: Interval, outer: Interval) -> bool {
@@ -58,7 +58,7 @@ fn finer_beams_narrow_every_interval_of_the_pattern_and_never_leave_it() {
     for view in [View::default(), View { tilt: 0.12, azimuth: 0.2, ..View::default() }] {
         let found = [0.2, 0.05, 0.01].map(|unresolved| {
             let beams = traced(&stone, DIAMOND, &view, unresolved);
-            let measures = LightMeasures::of(&beams, &stone, &settings(3.25));
+            let measures = LightMeasures::of(&beams, &stone, &settings(3.25), &unwatched).unwrap();
             let names = MeasureName::all(&settings(3.25));
             names.into_iter().map(|name| (name, name.of(&measures).unwrap())).collect::<Vec<_>>()
         });
@@ -103,8 +103,14 @@ fn a_stone_ten_times_as_large_from_ten_times_as_far_looks_the_same_and_one_that_
     let beams = traced(&stone, DIAMOND, &View::default(), 0.01);
     let usual = settings(3.25);
     let far = PatternSettings { resolves_mm: 10.0 * EYE_RESOLVES_MM, ..PatternSettings::usual(32.5) };
-    let far = LightMeasures::of(&beams, &stone, &MeasureSettings { pattern: Some(far), ..usual.clone() });
-    let near = LightMeasures::of(&beams, &stone, &usual);
+    let far = LightMeasures::of(
+        &beams,
+        &stone,
+        &MeasureSettings { pattern: Some(far), ..usual.clone() },
+        &unwatched,
+    )
+    .unwrap();
+    let near = LightMeasures::of(&beams, &stone, &usual, &unwatched).unwrap();
     let [(a, b), (c, d)] = [(near.pattern, far.pattern), (near.pattern, None)]
         .map(|(a, b)| (a.unwrap(), b.unwrap_or(a.unwrap())));
     for (a, b) in [
@@ -143,7 +149,7 @@ fn there_is_no_fire_without_dispersion_and_more_with_a_smaller_pupil() {
     let beams = traced(&stone, DIAMOND, &View::default(), 0.01);
     let fire = |indices: [f64; 2], blur_deg: f64| {
         let settings = MeasureSettings { indices, blur_deg, ..settings(3.25) };
-        LightMeasures::of(&beams, &stone, &settings).pattern.unwrap().fire_seen.least
+        LightMeasures::of(&beams, &stone, &settings, &unwatched).unwrap().pattern.unwrap().fire_seen.least
     };
     assert_eq!(fire([DIAMOND; 2], 0.76), 0.0);
     let pupils = [3.0, 1.5, 0.76, 0.4].map(|blur| fire([2.4075, 2.4512], blur));
@@ -159,7 +165,10 @@ fn fire_is_that_of_glass_zircon_diamond_and_strontium_titanate_in_this_order() {
         let indices = [line::FRAUNHOFER_B, line::FRAUNHOFER_G].map(|nm| material.index(nm));
         let beams = traced(&stone, material.index(line::SODIUM_D), &View::default(), 0.005);
         let settings = MeasureSettings { indices, ..settings(3.25) };
-        (indices[1] - indices[0], LightMeasures::of(&beams, &stone, &settings).pattern.unwrap().fire_seen)
+        (
+            indices[1] - indices[0],
+            LightMeasures::of(&beams, &stone, &settings, &unwatched).unwrap().pattern.unwrap().fire_seen,
+        )
     });
     println!("{found:?}");
     assert!(
@@ -258,7 +267,7 @@ fn scintillation(
         rocked_views(&view, rock_deg).iter().map(|view| traced(stone, index, view, unresolved)).collect();
     let beams = traced(stone, index, &view, unresolved / 10.0);
     let rocked = rocked.into_iter().map(Ok::<_, Stopped>);
-    Scintillation::of(&beams, rocked, head_deg, &PatternSettings::usual(3.25)).unwrap()
+    Scintillation::of(&beams, rocked, head_deg, &PatternSettings::usual(3.25), &unwatched).unwrap()
 }
 
 #[test]

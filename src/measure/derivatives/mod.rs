@@ -88,6 +88,7 @@ mod tests {
     use crate::measure::LightMeasures;
     use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace_bounces};
+    use crate::trace::unwatched;
     use glam::DVec3;
 
     const BOUNCES: u32 = 4;
@@ -205,7 +206,7 @@ mod tests {
             let settings = at_index(index);
             let (stone, beams) = traced(&brilliant(at), medium(index), tilt);
             let own = names().map(|name| name.derivatives(&beams, &stone, &settings).unwrap());
-            let measures = LightMeasures::of(&beams, &stone, &settings);
+            let measures = LightMeasures::of(&beams, &stone, &settings, &unwatched).unwrap();
             assert_eq!(own[2].value.to_bits(), measures.leakage.least.to_bits());
             assert!((own[0].value - measures.domes[0].inside.least).abs() < 1e-14);
             assert!((own[1].value - measures.domes[1].with_glare().least).abs() < 1e-14);
