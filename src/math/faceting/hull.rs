@@ -5,8 +5,11 @@
 
 use super::change::Change;
 use super::deviation::deviation;
+use super::deviation::outermost;
+use super::regions::NOWHERE;
 use super::search::{Limits, MatchingSolid, NOISE, SAME, SolidSearch};
 use crate::math::{Plane, Surface, convex_hull};
+use glam::DVec3;
 
 /// The greatest distance of a corner from the hull, as a part of the size, at which a surface may be meant to be its
 /// hull. Careless modelling leaves corners as far off as this.
@@ -44,11 +47,14 @@ impl Hull {
         self.0.vertices.iter().map(|corner| plane.distance(*corner)).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Returns the hull as a solid between the fewest planes that fit it; `None` where the hull is curved or has too
-    /// many facets.
-    pub fn solid(&self) -> Option<MatchingSolid> {
+    /// Returns the hull as a solid between the fewest planes that fit it, with the triangles of the surface that lie on its
+    /// facets; `None` where the hull is curved or has too many facets.
+    pub fn solid(&self, surface: &Surface) -> Option<MatchingSolid> {
         let (search, size) = (SolidSearch::of(&self.0), self.0.size());
-        NOISE.iter().rev().find_map(|noise| search.solid(Limits { tolerance: noise * size, same: SAME }))
+        let limits = NOISE.iter().rev().map(|noise| Limits { tolerance: noise * size, same: SAME });
+        let mut solid = limits.into_iter().find_map(|limits| search.solid(limits))?;
+        solid.found.of = lying(surface, &solid);
+        Some(solid)
     }
 
     /// Returns the hull as a solid; `None` where the surface is not meant to be its hull.
@@ -57,7 +63,7 @@ impl Hull {
             return None;
         }
         let size = surface.size();
-        let mut solid = self.solid()?;
+        let mut solid = self.solid(surface)?;
         // The solid may deviate from the hull's own corners; this distance is no fault of the corners below the hull.
         let limit = NEAR * size + solid.deviation;
         solid.deviation = deviation(&solid.polytope, &surface.vertices);
@@ -65,4 +71,19 @@ impl Hull {
         let is_shallow = || Change::of(surface, &solid.polytope).deepest <= DEEPEST * size;
         (is_near && is_shallow()).then_some(solid)
     }
+}
+
+/// Returns the region of each triangle of a surface by the facet of the solid on which it lies, and [`NOWHERE`] for those that
+/// lie on none.
+fn lying(surface: &Surface, solid: &MatchingSolid) -> Vec<u32> {
+    let planes: Vec<Plane> = solid.polytope.planes().collect();
+    let region = |t: usize| {
+        let corners = surface.corners(t);
+        let (facet, _) = outermost(&planes, corners.iter().sum::<DVec3>() / 3.0);
+        let is_on = |corner: &DVec3| planes[facet].distance(*corner).abs() <= SAME * solid.tolerance;
+        let faces = surface.area_vector(t).dot(planes[facet].normal) > 0.0;
+        let source = solid.polytope.facets()[facet].source as u32;
+        if faces && corners.iter().all(is_on) { source } else { NOWHERE }
+    };
+    (0..surface.triangles.len()).map(region).collect()
 }

@@ -16,6 +16,7 @@ mod change;
 mod deviation;
 mod fit;
 mod hull;
+mod joint;
 mod noisy;
 mod plane_error;
 mod regions;
@@ -114,7 +115,7 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, NotFaceted> {
 /// of them; `None` where the hull is curved, or has too many facets.
 pub fn hull_facets(surface: &Surface) -> Option<Box<Faceted>> {
     let (moved, centre) = centred(surface);
-    let solid = Hull::of(&moved)?.solid()?;
+    let solid = Hull::of(&moved)?.solid(&moved)?;
     Some(Box::new(faceted(moved, centre, solid, true)))
 }
 

@@ -85,6 +85,36 @@ fn groups_that_are_facets_lend_them_their_names() {
     assert!(faceted(two.mend().unwrap().surface).faces.iter().any(|f| f.name.is_none()));
 }
 
+#[test]
+fn facets_of_a_hull_have_the_names_of_the_groups_that_lie_on_them() {
+    let polytope = stone(6);
+    let mut dented = surface(&polytope);
+    // A pit in the largest triangle leaves the triangles around it on their facet, in a group of its own.
+    let t = (0..dented.triangles.len())
+        .max_by(|&a, &b| dented.area_vector(a).length().total_cmp(&dented.area_vector(b).length()))
+        .unwrap();
+    let (corners, place) = (dented.corners(t), dented.vertices.len() as u32);
+    let middle = corners.iter().sum::<DVec3>() / 3.0;
+    dented.vertices.extend(corners.map(|corner| middle + 0.5 * (corner - middle)));
+    dented.vertices.push(0.3 * middle);
+    let ([a, b, c], [d, e, f, bottom]) = (dented.triangles[t], [0, 1, 2, 3].map(|k| place + k));
+    let rim = [[a, b, e], [a, e, d], [b, c, f], [b, f, e], [c, a, d], [c, d, f]];
+    let pit = [[d, e, bottom], [e, f, bottom], [f, d, bottom]];
+    dented.triangles[t] = rim[0];
+    dented.triangles.extend(rim[1..].iter().chain(&pit));
+    dented.groups.extend([dented.groups[t]; 5]);
+    dented.groups.extend([dented.names.len() as u32; 3]);
+    dented.names.push("pit".to_owned());
+    let mended = dented.mend().unwrap().surface;
+    assert!(matches!(facets(mended.clone()), SurfaceKind::Concave(_)));
+    let found = faceted_hull(mended).unwrap();
+    assert_eq!(found.faces.len(), polytope.facets().len());
+    for face in &found.faces {
+        let number: usize = face.name.as_deref().unwrap().strip_prefix("facet ").unwrap().parse().unwrap();
+        assert!((polytope.facets()[number].plane.normal - face.plane.normal).length() < 1e-9);
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
