@@ -14,6 +14,7 @@ mod likeness;
 mod name;
 mod outline;
 mod up;
+mod whole_table;
 
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ pub use error::FromMeshError;
 pub use evening::Evening;
 pub use facet_error::FacetError;
 pub use up::Up;
+pub use whole_table::TablePart;
 
 /// A stone that was found in a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +49,8 @@ pub struct FromMesh {
     pub errors: Vec<FacetError>,
     /// Another direction that may be up, where the shape leaves a doubt.
     pub doubt: Option<Doubt>,
+    /// A facet that may be a part of the table, which noise has divided, where the two are not one within the noise.
+    pub table_part: Option<TablePart>,
 }
 
 /// The direction that was taken as up.
@@ -70,11 +74,24 @@ pub fn find_up(found: &Faceted, up: Up) -> Result<UpFound, FromMeshError> {
     Ok(UpFound { up: aim::put_along(axis).unwrap_or(axis), doubt })
 }
 
-/// Poses, evens and names the facets of a surface.
+/// Poses, evens and names the facets of a surface. The parts of a table that noise has divided are joined.
 ///
 /// # Errors
 /// Fails where the direction up is zero or not finite, or where the facets enclose nothing once they are evened.
 pub fn from_mesh(found: &Faceted, up: Up, evening: Evening) -> Result<FromMesh, FromMeshError> {
+    let made = posed(found, up, evening)?;
+    let whole =
+        made.table.filter(|_| !matches!(up, Up::Posed(_))).and_then(|table| whole_table::whole(found, table));
+    Ok(whole.map_or(Ok(made), |whole| posed(&whole, up, evening))?.stone)
+}
+
+/// A stone, and the place of its table among the facets that were found.
+struct Made {
+    stone: FromMesh,
+    table: Option<usize>,
+}
+
+fn posed(found: &Faceted, up: Up, evening: Evening) -> Result<Made, FromMeshError> {
     let posed = if let Up::Posed(pose) = up { Some(pose) } else { None };
     let is_posed = posed.is_some();
     let middle = match posed {
@@ -98,7 +115,8 @@ pub fn from_mesh(found: &Faceted, up: Up, evening: Evening) -> Result<FromMesh, 
     let facets = name::named(&posed, table, given, upright.scale * found.tolerance);
     let level = table.filter(|_| even.symmetry(upright.turn) == Symmetry::NONE && !is_posed);
     let errors = errors(found, &pose, &facets, &posed, level);
-    Ok(FromMesh {
+    let table_part = table.filter(|_| !is_posed).and_then(|table| table_part(found, table, &facets, &posed));
+    let stone = FromMesh {
         errors,
         facets,
         pose,
@@ -106,7 +124,23 @@ pub fn from_mesh(found: &Faceted, up: Up, evening: Evening) -> Result<FromMesh, 
         evened: even.symmetry(upright.turn),
         up: axis,
         doubt,
-    })
+        table_part,
+    };
+    Ok(Made { stone, table })
+}
+
+/// Returns the facet that leans least from the table, if it may be a part of it. The planes of the named facets are among
+/// `posed` in the order of the found faces.
+fn table_part(
+    found: &Faceted,
+    table: usize,
+    facets: &[(String, Plane)],
+    posed: &[Plane],
+) -> Option<TablePart> {
+    let place = *whole_table::parts(found, table).first()?;
+    let (name, _) = facets.iter().find(|(_, plane)| *plane == posed[place])?;
+    let lean_deg = whole_table::lean(&found.polytope, table, place).to_degrees();
+    Some(TablePart { facet: name.clone(), lean_deg })
 }
 
 /// Returns the standard errors of the named facets of a scan, whose planes are among `posed` in the order of the found faces;

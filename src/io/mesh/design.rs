@@ -3,7 +3,9 @@
 use super::file::{self, MaterialHint, MeshFile, MeshFormat, Statement};
 use super::parts::{ChosenPart, MeshBody};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful, usual_up};
-use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, UpFound, directions, find_up, from_mesh};
+use crate::cut::from_mesh::{
+    Evening, FacetError, FromMesh, TablePart, Up, UpFound, directions, find_up, from_mesh,
+};
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
@@ -171,6 +173,15 @@ fn bent(errors: &[FacetError]) -> Option<String> {
     ))
 }
 
+/// Returns the warning about a table that noise may have divided.
+fn divided(part: &TablePart) -> String {
+    format!(
+        "the facet '{}' leans only {:.2} degrees from the table: noise may have divided one facet in two, and the table would be \
+         larger than it is read; a mesh with less noise would tell",
+        part.facet, part.lean_deg
+    )
+}
+
 /// Returns the note on a stone that was given a symmetry; `None` where it was left as found.
 fn evened(symmetry: &Symmetry) -> Option<String> {
     const FOLDS: [&str; 11] = [
@@ -236,6 +247,7 @@ impl File {
         ));
         remarks.notes.extend(known_to(&errors));
         remarks.warnings.extend(bent(&errors));
+        remarks.warnings.extend(made.table_part.as_ref().map(divided));
         let evened = evened(&made.evened);
         let is_evened = evened.is_some();
         remarks.notes.extend(evened);
