@@ -84,6 +84,11 @@ impl Limit {
         }
     }
 
+    /// Returns the words for a change by at least so much; none for a change beyond all numbers.
+    fn step(step: f64) -> String {
+        if step.is_finite() { format!(" by at least {}", rounded(step)) } else { String::new() }
+    }
+
     fn text(&self, open: &str, closed: &str, change: &str) -> String {
         let Self { row: Proportion { unit, .. }, value, limit, inclusive, .. } = *self;
         let gap = (value - limit).abs();
@@ -92,11 +97,8 @@ impl Limit {
         let side = if inclusive { closed } else { open };
         let step = if inclusive { (gap * 100.0).ceil() } else { (gap * 100.0).floor() + 1.0 } / 100.0;
         let value = given(if near { value } else { four_decimals(value) });
-        let (step, hint) = (rounded(step), self.unit_hint());
-        format!(
-            "{value}{unit} must be {side} {limit}{unit}, {}; {change} it by at least {step}{hint}",
-            self.clause()
-        )
+        let (step, hint) = (Self::step(step), self.unit_hint());
+        format!("{value}{unit} must be {side} {limit}{unit}, {}; {change} it{step}{hint}", self.clause())
     }
 
     /// Returns a hint with the value in the proper unit, where the given one looks like a fraction or radians.
@@ -164,6 +166,13 @@ mod tests {
         assert!(text(fraction).ends_with("(the unit is percent, so 53.0 if a fraction was meant)"));
         let radians = RoundBrilliant { crown: Crown::Angle(34.5_f64.to_radians()), ..MODERN };
         assert!(text(radians).ends_with("(the unit is degrees, so 34.5 if radians were meant)"));
+    }
+
+    #[test]
+    fn a_number_beyond_all_measure_has_no_step_and_few_digits() {
+        let given = RoundBrilliant { star_length: 1e308, ..MODERN };
+        assert!(text(given).contains("1e308 % must be below 100 %"), "{}", text(given));
+        assert!(!text(given).contains("inf"), "{}", text(given));
     }
 
     #[test]

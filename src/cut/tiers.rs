@@ -6,6 +6,7 @@
 use super::frosting::FROSTINGS;
 use super::meets::Meet;
 use super::names;
+use super::proportion_error::given;
 use crate::math::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -95,19 +96,19 @@ pub enum TierFault {
     #[error("gear: {0} must be from 1 to {MOST_TEETH} teeth, or below 0 where they are counted clockwise")]
     Gear(i32),
     /// An offset that is not a number, or too large.
-    #[error("offset: {0} must be a number of teeth")]
+    #[error("offset: {} must be a number of teeth", given(*.0))]
     Offset(f64),
     /// An angle out of range.
-    #[error("angle: {0} must be from -180 to 180 degrees")]
+    #[error("angle: {} must be from -180 to 180 degrees", given(*.0))]
     Angle(f64),
     /// A distance out of range.
-    #[error("distance: {0} must be a length, up to {LARGEST}")]
+    #[error("distance: {} must be a length, up to {LARGEST}", given(*.0))]
     Distance(f64),
     /// A finish out of range.
-    #[error("frosting: {0} must be from 0 (polished) to 1")]
+    #[error("frosting: {} must be from 0 (polished) to 1", given(*.0))]
     Frosting(f64),
     /// An index out of range.
-    #[error("index: {0} must be a tooth of the gear, up to {LARGEST}")]
+    #[error("index: {} must be a tooth of the gear, up to {LARGEST}", given(*.0))]
     Index(f64),
 }
 

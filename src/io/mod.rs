@@ -63,6 +63,7 @@ mod text;
 mod toml_comments;
 mod toml_format;
 mod toml_text;
+mod undecoded;
 
 pub use animation::{Animation, AnimationFormat, Frames, write_animation};
 pub use atomic::{

@@ -69,8 +69,11 @@ const MEANINGS: [(&str, &str); 55] = [
 ];
 const RADIANCE: &str = "0 to 1e6; 1 is a white sheet in full light";
 /// Serde's words for the expected type, and the words that this program uses.
-const WORDS: [(&str, &str); 12] = [
+const WORDS: [(&str, &str); 15] = [
     ("expected f64", "expected a number"),
+    ("expected f32", "expected a number"),
+    ("expected u64", "expected a whole number, 0 or more"),
+    ("expected usize", "expected a whole number, 0 or more"),
     ("expected u32", "expected a whole number, 0 or more"),
     ("expected u8", "expected a whole number from 0 to 255"),
     ("expected an array of length 3", "expected a list of 3 numbers"),
@@ -82,6 +85,31 @@ const WORDS: [(&str, &str); 12] = [
     ("invalid type: sequence", "invalid type: list"),
     ("invalid type: map", "invalid type: table"),
     ("floating point", "number"),
+];
+
+/// The beginnings of the parser's messages about a text that is not TOML, and the words that this program uses.
+const SYNTAX: [(&str, &str); 12] = [
+    ("duplicate key", "this key is there a second time; leave one of them out"),
+    ("floating-point number overflowed", "the number is too large"),
+    ("integer number overflowed", "the number is too large"),
+    ("string values must be quoted", "text must stand between quotation marks, as in \"diamond\""),
+    (
+        "key with no value",
+        "a line `key = value`, a table's name as `[name]` or a remark after `#` is expected",
+    ),
+    ("cannot recurse further", "lists or tables lie too deep within one another"),
+    ("invalid unquoted key", "a key has only letters, digits, - and _"),
+    (
+        "invalid key-value pair",
+        "a line `key = value`, a table's name as `[name]` or a remark after `#` is expected",
+    ),
+    ("invalid basic string, expected `\"`", "the text has no end; a quotation mark is expected behind it"),
+    (
+        "invalid basic string",
+        "the text has a character that it must not have; leave it out, or write \\\\ for \\",
+    ),
+    ("invalid float", "this is not a number"),
+    ("unclosed array", "the list has no end; `]` is expected behind its last value"),
 ];
 
 /// A TOML text that has been parsed.
@@ -174,7 +202,9 @@ fn syntax(text: &str, error: &Error) -> Fault {
     let column = 1 + String::from_utf8_lossy(line).chars().count();
     let whole = text[start - line.len()..].lines().next().unwrap_or_default();
     let key = whole.split_once('=').map_or(String::new(), |(key, _)| format!("{}: ", key.trim()));
-    let problem = format!("{key}column {column}: {}{}", error.message(), hint(whole));
+    let said = error.message();
+    let known = SYNTAX.iter().find(|(start, _)| said.starts_with(start));
+    let problem = format!("{key}column {column}: {}{}", known.map_or(said, |(_, words)| words), hint(whole));
     Fault::line(line_at(text, start), problem)
 }
 
@@ -250,8 +280,12 @@ fn reworded(message: &str, path: &str, further: &[&str]) -> String {
     if let Some(rest) = message.strip_prefix("missing field ") {
         return format!("the key {rest} is missing{}", meaning(table, rest.trim_matches('`')));
     }
-    let plain = WORDS.iter().fold(message.to_owned(), |text, (serde, word)| text.replace(serde, word));
-    plain + &meaning(table, path.rsplit('.').next().unwrap_or_default())
+    in_plain_words(message) + &meaning(table, path.rsplit('.').next().unwrap_or_default())
+}
+
+/// Returns a message of serde with the names that people give to types.
+pub(super) fn in_plain_words(message: &str) -> String {
+    WORDS.iter().fold(message.to_owned(), |text, (serde, word)| text.replace(serde, word))
 }
 
 /// Returns the meaning of a key in brackets, where it is known; `table` is the top table of the file that holds the

@@ -32,7 +32,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&text, options)
-        .map_err(|error| Fault::line(error.pos().row as usize, error))?;
+        .map_err(|error| Fault::line(error.pos().row as usize, unread(&error)))?;
     let mut reader =
         Reader { document: &document, warnings: WarningList::default(), numbers: NumberReader::default() };
     warning.into_iter().for_each(|text| reader.warnings.warn(|| text));
@@ -40,6 +40,43 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     reader.numbers.warning().into_iter().for_each(|text| reader.warnings.warn(|| text));
     let name = cutters::title(tiers.headers.first(), label);
     cutters::brought(name, material, tiers, reader.warnings)
+}
+
+/// Says in plain words why a text is no XML that can be read.
+fn unread(error: &roxmltree::Error) -> String {
+    use roxmltree::Error;
+    let what = match error {
+        Error::UnexpectedCloseTag(expected, found, _) => {
+            format!("`</{expected:.40}>` is expected, and `</{found:.40}>` is there")
+        }
+        Error::UnexpectedEntityCloseTag(_) => "an element ends that has not begun".to_owned(),
+        Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
+            "the file ends within an element: it has been cut off, get it again".to_owned()
+        }
+        Error::NoRootNode => "there is no element".to_owned(),
+        Error::DuplicatedAttribute(name, _) => {
+            format!("the attribute `{name:.40}` is there twice; leave one of them out")
+        }
+        Error::UnknownEntityReference(..) | Error::MalformedEntityReference(_) => {
+            "a character `&` must be written as `&amp;`".to_owned()
+        }
+        Error::InvalidAttributeValue(_) => {
+            "a character `<` within a value must be written as `&lt;`".to_owned()
+        }
+        Error::InvalidChar(found, expected, _) => {
+            format!("`{}` is expected, and `{}` is there", char::from(*expected), char::from(*found))
+        }
+        Error::InvalidChar2(expected, found, _) => {
+            format!("{expected} is expected, and `{}` is there", char::from(*found))
+        }
+        Error::NonXmlChar(c, _) => {
+            format!("the character U+{:04X} is not allowed; leave it out", u32::from(*c))
+        }
+        Error::DtdDetected => "it has a DOCTYPE, which a design does not need; leave it out".to_owned(),
+        Error::NodesLimitReached => format!("it has more than {MOST_NODES} elements"),
+        _ => "its elements are not those of XML".to_owned(),
+    };
+    format!("this XML cannot be read: {what}; or save the design again from Gem Cut Studio")
 }
 
 pub(super) struct Reader<'d> {

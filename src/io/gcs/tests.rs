@@ -354,3 +354,27 @@ fn frosting_is_read_from_facets_tiers_and_instructions_and_written_back() {
     }
     assert!(!String::from_utf8(write(&specimen(design())).bytes).unwrap().contains("frosting"));
 }
+
+#[test]
+fn what_is_no_xml_is_told_in_plain_words() {
+    for (text, words) in [
+        (
+            "<GemCutStudio>\n<tier>\n</teir>",
+            "box.gcs:3: this XML cannot be read: `</tier>` is expected, and `</teir>`",
+        ),
+        ("<GemCutStudio>\n<tier>", "it has been cut off"),
+        (
+            "<GemCutStudio>\n<info title=\"A & B\"/></GemCutStudio>",
+            "box.gcs:2: this XML cannot be read: a character `&`",
+        ),
+        ("<GemCutStudio a=\"1\" a=\"2\"/>", "the attribute `a` is there twice"),
+        ("<!DOCTYPE x><GemCutStudio/>", "it has a DOCTYPE"),
+        ("<GemCutStudio a=1/>", "is expected, and `1` is there"),
+    ] {
+        let told = refused(text);
+        assert!(
+            told.contains(words) && told.ends_with("save the design again from Gem Cut Studio"),
+            "{told}"
+        );
+    }
+}

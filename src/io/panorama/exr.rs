@@ -5,7 +5,6 @@ use super::exr_layer::{ColourLayer, Colours, OfPart};
 use super::shared::{Raw, check_size, damaged, warn_of_primaries};
 use crate::io::file_error::Fault;
 use crate::scene::Panorama;
-use exr::error::Error;
 use exr::math::Vec2;
 use exr::meta::MetaData;
 use exr::meta::header::Header;
@@ -17,7 +16,7 @@ use std::io::{BufReader, Seek};
 const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> {
-    let meta = MetaData::read_from_buffered(&mut file, false).map_err(undecoded)?;
+    let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     file.rewind().map_err(damaged)?;
     // The decoder makes room for one layer only, but reads the tables of all.
     for header in &meta.headers {
@@ -33,18 +32,6 @@ pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> 
     let (panorama, cut) = in_window(header, pixels(file, header, &colours)?);
     warnings.extend(cut);
     Ok((panorama, warnings))
-}
-
-/// Makes a fault of a file that the decoder gave up on.
-fn undecoded(error: Error) -> Fault {
-    match error {
-        Error::NotSupported(what) if what.contains("subsampling") => {
-            "its channels have fewer samples than pixels, as luminance and chroma often have, which is not read; save it as \
-             RGB"
-            .into()
-        }
-        other => damaged(other),
-    }
 }
 
 /// The width of a layer and its pixels, row by row from the top.

@@ -1,6 +1,7 @@
 //! What the readers of all formats of pictures share: limits, faults and warnings.
 
 use crate::io::file_error::Fault;
+use crate::io::undecoded::Undecoded;
 use crate::scene::Panorama;
 
 /// The width and the height of the largest picture that is read, in pixels.
@@ -43,9 +44,10 @@ pub fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
 }
 
 /// Makes a fault of a file that a decoder gave up on.
-pub fn damaged(error: impl std::fmt::Display) -> Fault {
+pub fn damaged(error: impl Undecoded) -> Fault {
     Fault::whole(format!(
-        "cannot be decoded ({error}); get the file again, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
+        "this picture cannot be read: {}; get the file again, or save it again as OpenEXR, Radiance HDR, PNG or JPEG",
+        error.reason()
     ))
 }
 

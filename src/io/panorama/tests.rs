@@ -377,3 +377,32 @@ fn colours_and_factors_of_radiance_are_those_that_its_header_states() {
     assert!(first("GAMMA=1\nPRIMARIES=0 0 0 0 0 0 0 0\n").1.is_empty());
     assert!(first("PRIMARIES=0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329\n").1.contains("primaries"));
 }
+
+#[test]
+fn what_a_decoder_gives_up_on_is_told_in_plain_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let spoilt = |mut file: Vec<u8>, at: usize| {
+        (at..at + 8).for_each(|k| file[k] = !file[k]);
+        file
+    };
+    let half = |file: Vec<u8>| file[..file.len() / 2].to_vec();
+    let (png, exr, jpeg) = (png_file(&folder, 64, 32), exr_file(&folder, 64, 32), jpeg_file(64, 32));
+    let hdr = hdr_file("#?RADIANCE", 64, 32);
+    let middle = png.len() / 2;
+    for (file, reasons) in [
+        (half(png.clone()), ["it ends too soon", "PNG data are damaged"]),
+        (spoilt(png, middle), ["PNG data are damaged", "data are damaged"]),
+        (half(exr.clone()), ["it ends too soon", "OpenEXR data are damaged"]),
+        (spoilt(exr, 8), ["OpenEXR data are damaged", "is not read"]),
+        (half(hdr), ["it ends too soon", "data are damaged"]),
+        (jpeg[..100].to_vec(), ["JPEG data are damaged", "it ends too soon"]),
+    ] {
+        let told = read(&at(&folder, &file)).unwrap_err().to_string();
+        let is_known = reasons.iter().any(|reason| told.contains(reason));
+        assert!(is_known && told.contains("this picture cannot be read: "), "{told}");
+        assert!(
+            told.ends_with("; get the file again, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"),
+            "{told}"
+        );
+    }
+}

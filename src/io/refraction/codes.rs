@@ -4,6 +4,7 @@ use super::{ABOUT, MOST_MAP_PIXELS};
 use crate::io::file_error::Fault;
 use crate::io::panorama::check_size;
 use crate::io::text::unreadable;
+use crate::io::undecoded::Undecoded;
 use exr::image::{AnyChannel, FlatSamples};
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
@@ -77,9 +78,10 @@ fn less_samples(left: u64, pixels: u64, channels: u64) -> Result<u64, Fault> {
     })
 }
 
-fn damaged(error: impl std::fmt::Display) -> Fault {
+fn damaged(error: impl Undecoded) -> Fault {
     Fault::whole(format!(
-        "cannot be decoded ({error}); get the file again, or save it again as PNG or OpenEXR"
+        "this picture cannot be read: {}; get the file again, or save it again as PNG or OpenEXR",
+        error.reason()
     ))
 }
 
