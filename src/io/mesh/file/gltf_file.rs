@@ -3,7 +3,9 @@
 
 mod buffers;
 mod draco;
+mod faults;
 mod images;
+mod instances;
 mod meshopt;
 mod repair;
 mod scene;
@@ -12,6 +14,7 @@ mod uri;
 
 use super::parsed_mesh::ParsedMesh;
 use crate::io::file_error::Fault;
+use faults::{UNREADABLE, broken, unfit};
 use gltf::json::validation::Checked;
 use gltf::json::{Root, deserialize};
 use gltf::{Document, Semantic};
@@ -23,14 +26,13 @@ use std::path::Path;
 /// The size of a binary glTF file's header, in bytes.
 const GLB_HEADER: usize = 12;
 
-/// The beginning of the message about a file that is no glTF.
-const UNREADABLE: &str = "this glTF 2.0 cannot be read: ";
-
-/// The extensions without which shapes would be read wrongly, and which are not read. A file can be read without any other.
-const NEEDED: [&str; 2] = ["EXT_mesh_gpu_instancing", "KHR_meshopt_compression"];
+/// The extension that packs shapes in a way that is not read. Where a file does not require it, its buffers hold the shapes
+/// also as they are.
+const PACKED: &str = "KHR_meshopt_compression";
 
 /// The extensions of shapes that are read.
-const READ: [&str; 4] = [repair::DRACO, meshopt::NAME, "KHR_mesh_quantization", scene::HIDDEN];
+const READ: [&str; 5] =
+    [repair::DRACO, meshopt::NAME, instances::NAME, "KHR_mesh_quantization", scene::HIDDEN];
 
 pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<ParsedMesh, Fault> {
     let (json, blob) = split(bytes)?;
@@ -90,14 +92,19 @@ fn other_version(version: &str) -> Fault {
 }
 
 fn parsed(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
-    let mut root: Root = deserialize::from_slice(json)
-        .map_err(|error| Fault::line(error.line(), format!("{UNREADABLE}{error}")))?;
+    let mut root: Root = deserialize::from_slice(json).map_err(|error| broken(json, &error))?;
     if !root.asset.version.starts_with("2") {
         return Err(other_version(&root.asset.version));
     }
-    let mut warnings = extensions(&mut root)?;
+    let requires_packed = root.extensions_required.iter().any(|name| name == PACKED);
+    let mut warnings = extensions(&mut root);
     warnings.extend(positions(&mut root)?);
-    let document = Document::from_json(root).map_err(|error| Fault::whole(message(error)))?;
+    let document = Document::from_json(root).map_err(unfit)?;
+    if requires_packed && document.views().any(|view| view.extension_value(PACKED).is_some()) {
+        let message =
+            format!("the shape is written with {PACKED}, which is not read; save the file without it");
+        return Err(Fault::part("extensionsRequired", message));
+    }
     Ok((document, warnings))
 }
 
@@ -116,18 +123,8 @@ fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), Fault> {
             format!("the header says {length} bytes, and the file has {}; it has been cut off", bytes.len());
         return Err(Fault::part("offset 8", message));
     }
-    let glb = gltf::Glb::from_slice(bytes).map_err(|error| Fault::whole(message(error)))?;
+    let glb = gltf::Glb::from_slice(bytes).map_err(unfit)?;
     Ok((glb.json.into_owned(), glb.bin.map(std::borrow::Cow::into_owned)))
-}
-
-fn message(error: gltf::Error) -> String {
-    match error {
-        gltf::Error::Validation(faults) => {
-            let first = faults.first().map(|(path, error)| format!("{path}: {error}")).unwrap_or_default();
-            format!("{UNREADABLE}{first}")
-        }
-        other => format!("{UNREADABLE}{other}"),
-    }
 }
 
 /// Ensures two assumptions of the gltf crate: that POSITION refers to an accessor that exists, and that its bounds
@@ -156,27 +153,17 @@ fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
     Ok((unbounded > 0).then(|| format!("the bounds of places are missing {unbounded} times")))
 }
 
-/// Checks the extensions of a file. Those that change shapes and are not read are faults where the file needs them and
-/// warnings where it does not. The list of needed extensions is emptied, since the crate would refuse others too, such as
-/// those of materials.
-fn extensions(root: &mut Root) -> Result<Vec<String>, Fault> {
-    let is_needed = |name: &&String| NEEDED.contains(&name.as_str());
-    if let Some(name) = root.extensions_required.iter().find(is_needed) {
-        let message =
-            format!("the shape is written with {name}, which is not read; save the file without it");
-        return Err(Fault::part("extensionsRequired", message));
-    }
-    let shapeless =
-        |name: &String| ["KHR_materials_", "KHR_texture_", "KHR_lights_"].iter().any(|p| name.starts_with(p));
-    let strange =
-        root.extensions_required.iter().filter(|name| !shapeless(name) && !READ.contains(&name.as_str()));
-    let mut warnings: Vec<String> = strange
-        .map(|name| {
-            format!("the file requires {name}, which this program does not support; it is read without that")
-        })
-        .collect();
-    let optional = root.extensions_used.iter().filter(is_needed);
-    warnings.extend(optional.map(|name| format!("{name} is not read; a part of the shape may be missing")));
-    root.extensions_required.clear();
-    Ok(warnings)
+/// Returns a warning for each needed extension that is not known. The list of needed extensions is emptied, since the crate
+/// would refuse others too, such as those of materials.
+fn extensions(root: &mut Root) -> Vec<String> {
+    let shapeless = |name: &str| {
+        ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_"].iter().any(|p| name.starts_with(p))
+    };
+    let is_known = |name: &str| READ.contains(&name) || name == PACKED;
+    let required = std::mem::take(&mut root.extensions_required);
+    let strange = required.into_iter().filter(|name| !shapeless(name) && !is_known(name));
+    let warning = |name| {
+        format!("the file requires {name}, which this program does not support; it is read without that")
+    };
+    strange.map(warning).collect()
 }

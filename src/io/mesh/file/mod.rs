@@ -12,6 +12,8 @@ mod number;
 mod obj_file;
 mod parsed_mesh;
 mod ply_file;
+mod ply_header;
+mod ply_rows;
 mod polygons;
 mod sniff;
 mod statement;

@@ -170,7 +170,7 @@ fn fault(error: &LoadError, line: usize, bytes: &[u8]) -> Fault {
         }
         LoadError::FaceVertexOutOfBounds => first_out_of_bounds(bytes)
             .unwrap_or_else(|| Fault::line(line, "a face above refers to a corner that is not there")),
-        other => Fault::line(line, format!("this cannot be read: {other}")),
+        _ => Fault::line(line, "this line cannot be read; save the file again as OBJ"),
     }
 }
 

@@ -4,6 +4,8 @@ use super::limits::{self, MAX_VERTICES};
 use super::lines::Lines;
 use super::number::number as read_number;
 use super::parsed_mesh::ParsedMesh;
+use super::ply_header::HeaderLines;
+use super::ply_rows::PlyRows;
 use super::polygons::Polygons;
 use super::statement::Statement;
 use crate::io::encoding::with_line_feeds;
@@ -11,9 +13,11 @@ use crate::io::file_error::Fault;
 use crate::io::numbers::NumberReader;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyDef, PropertyType,
+};
 use std::cell::{Cell, RefCell};
-use std::io::BufRead;
+use std::io::{BufRead, ErrorKind};
 use std::rc::Rc;
 
 /// The size of the longest header that is read, in bytes: hundreds of comments.
@@ -25,8 +29,8 @@ const END: &[u8] = b"end_header";
 /// The names of the list of a face's or a strip's corners.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// The words that begin the lines of a header. Lines of other words are left out.
-const WORDS: [&str; 7] = ["ply", "format", "comment", "obj_info", "element", "property", "end_header"];
+/// The most bytes behind the last row of a binary file that are taken for its end.
+const END_OF_FILE: usize = 8;
 
 /// The used values of a row of a file: the position of a corner, or the corners of a face or a strip.
 #[derive(Default)]
@@ -93,20 +97,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let end = header_end(bytes).ok_or("the header has no end; a line `end_header` is expected")?;
     let head = with_line_feeds(&bytes[..end]);
     let parser = Parser::<Row>::new();
-    let line = Rc::new(Cell::new(0));
-    let mut reader = Reader::new(Lines::new(&head, line.clone(), tidy_header));
-    // Blank lines are left out, so that the crate counts fewer lines.
-    let in_line = |error| Fault { line: Some(line.get()), ..fault(&error) };
-    let header = parser.read_header(&mut reader).map_err(in_line)?;
+    let (header, above) = header(&parser, &head)?;
     check(&header)?;
-    let (rows, warning) = match header.encoding {
-        Encoding::Ascii => text_rows(
-            &parser,
-            &header,
-            &with_line_feeds(&bytes[end..]),
-            head.split(|b| *b == b'\n').count() - 1,
-        )?,
-        _ => (rows(&parser, &header, &mut Reader::new(&bytes[end..])).map_err(|error| fault(&error))?, None),
+    let (rows, warnings) = match header.encoding {
+        Encoding::Ascii => text_rows(&parser, &header, &with_line_feeds(&bytes[end..]), above)?,
+        _ => binary_rows(&parser, &header, &bytes[end..])?,
     };
     let mut polygons = Polygons::default();
     for (name, rows) in rows {
@@ -117,7 +112,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
         }
     }
     let said = header.comments.iter().find(|comment| Statement::is_meant(comment)).cloned();
-    let warnings = [polygons.warning("faces"), warning].into_iter().flatten().collect();
+    let warnings = polygons.warning("faces").into_iter().chain(warnings).collect();
     Ok(ParsedMesh { surface: polygons.surface, warnings, said, ..ParsedMesh::default() })
 }
 
@@ -140,31 +135,35 @@ fn header_end(bytes: &[u8]) -> Option<usize> {
     Some((end + if bytes.get(end) == Some(&b'\r') && is_pair { 2 } else { 1 }).min(bytes.len()))
 }
 
-/// Brings a line of a header into the form that the crate takes. Blank lines are left out.
-fn tidy_header(line: &[u8], out: &mut Vec<u8>) {
-    if line.trim_ascii().is_empty() {
-        return;
+/// Reads a header, and returns the number of its lines with it.
+fn header(parser: &Parser<Row>, head: &[u8]) -> Result<(Header, usize), Fault> {
+    let line = Rc::new(Cell::new(0));
+    let mut lines = HeaderLines::default();
+    let number = line.clone();
+    let change = |text: &[u8], out: &mut Vec<u8>| lines.hand_on(text, number.get(), out);
+    let read = parser.read_header(&mut Reader::new(Lines::new(head, line.clone(), change)));
+    if let Some(fault) = lines.fault {
+        return Err(fault);
     }
-    // Comments may be in any encoding.
-    let line: String =
-        line.iter().map(|byte| if byte.is_ascii() { char::from(*byte) } else { '?' }).collect();
-    let is_known = line.split_whitespace().next().is_some_and(|word| WORDS.contains(&word));
-    out.extend(if is_known { line.trim() } else { "comment" }.as_bytes());
-    out.push(b'\n');
+    let unread =
+        |_| Fault::line(line.get(), "the header cannot be read from here on; save the file again as PLY");
+    Ok((read.map_err(unread)?, head.split(|b| *b == b'\n').count() - 1))
 }
 
 /// The rows of the elements that are read.
-type Rows<'h> = Vec<(&'h str, Vec<Row>)>;
+type Found<'h> = Vec<(&'h str, Vec<Row>)>;
 
 /// Reads the rows of all elements in their order, and returns those of corners, faces and strips, the corners first.
 fn rows<'h, R: BufRead>(
     parser: &Parser<Row>,
     header: &'h Header,
     reader: &mut Reader<R>,
-) -> Result<Rows<'h>, ParseError> {
-    let mut all: Rows<'_> = vec![];
+) -> Result<Found<'h>, Unread> {
+    let mut all: Found<'_> = vec![];
     for (name, element) in &header.elements {
-        let rows = parser.read_payload_for_element(reader, element, header)?;
+        let rows = parser
+            .read_payload_for_element(reader, element, header)
+            .map_err(|error| Unread::of(name, element.count, &error))?;
         if matches!(name.as_str(), "vertex" | "face" | "tristrips") {
             all.push((name, rows));
         }
@@ -173,31 +172,60 @@ fn rows<'h, R: BufRead>(
     Ok(all)
 }
 
-/// Reads the rows of a text, whose header has `above` lines, and a warning about its numbers.
+/// Reads the rows of a binary file, and a warning about bytes behind them.
+fn binary_rows<'h>(
+    parser: &Parser<Row>,
+    header: &'h Header,
+    mut bytes: &[u8],
+) -> Result<(Found<'h>, Vec<String>), Fault> {
+    let found = rows(parser, header, &mut Reader::new(&mut bytes)).map_err(|unread| unread.fault)?;
+    let left = bytes.len();
+    let warning = (left > END_OF_FILE).then(|| format!("{left} bytes behind the last row are left out"));
+    Ok((found, warning.into_iter().collect()))
+}
+
+/// Reads the rows of a text, whose header has `above` lines, and warnings about its numbers and rows.
 fn text_rows<'h>(
     parser: &Parser<Row>,
     header: &'h Header,
     text: &[u8],
     above: usize,
-) -> Result<(Rows<'h>, Option<String>), Fault> {
+) -> Result<(Found<'h>, Vec<String>), Fault> {
     let line = Rc::new(Cell::new(0));
-    let state = RefCell::new((NumberReader::default(), None::<Fault>));
+    let state = RefCell::new((NumberReader::default(), PlyRows::of(header), None::<Fault>));
     let change = |text: &[u8], out: &mut Vec<u8>| {
-        let (numbers, broken) = &mut *state.borrow_mut();
-        match tidy(&String::from_utf8_lossy(text), numbers, above + line.get()) {
+        let (numbers, rows, broken) = &mut *state.borrow_mut();
+        let number = above + line.get();
+        let tidied = tidy(&String::from_utf8_lossy(text), numbers, number);
+        let checked = tidied.and_then(|text| {
+            let words: Vec<&str> = text.split_whitespace().collect();
             // Blank lines are left out.
-            Ok(text) if text.trim().is_empty() => {}
+            let words = if words.is_empty() { &words } else { rows.check(&words, number)? };
+            Ok(words.join(" "))
+        });
+        match checked {
+            Ok(text) if text.is_empty() => {}
             Ok(text) => out.extend((text + "\n").bytes()),
             Err(fault) => drop(broken.get_or_insert(fault)),
         }
     };
-    let found = rows(parser, header, &mut Reader::new(Lines::new(text, line.clone(), change)));
-    let (numbers, broken) = state.into_inner();
+    let mut reader = Reader::new(Lines::new(text, line.clone(), change));
+    let found = rows(parser, header, &mut reader);
+    if found.is_ok() {
+        // The lines behind the last row are counted.
+        let _ = std::io::copy(reader.get_mut(), &mut std::io::sink());
+    }
+    drop(reader);
+    let (numbers, mut rows, broken) = state.into_inner();
     if let Some(fault) = broken {
         return Err(fault);
     }
-    let found = found.map_err(|error| Fault { line: Some(above + line.get()), ..fault(&error) })?;
-    Ok((found, numbers.warning()))
+    let in_line = |Unread { is_cut_off, fault }| match rows.cut_off().filter(|_| is_cut_off) {
+        Some(cut_off) => cut_off,
+        None => Fault { line: Some(above + line.get()), ..fault },
+    };
+    let found = found.map_err(in_line)?;
+    Ok((found, numbers.warning().into_iter().chain(rows.warnings()).collect()))
 }
 
 /// Brings a row of a text into the form that the crate takes, whose numbers have digits on both sides of a decimal point and
@@ -248,6 +276,20 @@ fn check(header: &Header) -> Result<(), Fault> {
     if let Some(axis) = ["x", "y", "z"].iter().find(|axis| !has(element("vertex"), &[axis])) {
         return expected(axis, "vertex");
     }
+    let is_list = |property: &PropertyDef| matches!(property.data_type, PropertyType::List(..));
+    for (name, element) in &header.elements {
+        let (wanted, kind, list): (&[&str], _, _) = match name.as_str() {
+            "vertex" => (&["x", "y", "z"], "a number", false),
+            "face" | "tristrips" => (&CORNERS, "a list of numbers", true),
+            _ => continue,
+        };
+        let is_wrong = |name: &&&str| element.properties.get(**name).is_some_and(|p| is_list(p) != list);
+        if let Some(property) = wanted.iter().find(is_wrong) {
+            let message =
+                format!("`{property}` of element `{name}` must be {kind}; save the file again as PLY");
+            return Err(Fault::part("header", message));
+        }
+    }
     let parts = ["face", "tristrips"].map(element);
     if parts.iter().flatten().all(|part| part.count == 0) {
         return Err("this is a cloud of points without faces; save a closed surface of faces".into());
@@ -297,11 +339,23 @@ fn part(what: &str, number: usize, problem: &str) -> Fault {
     Fault::part(format!("{what} {number}"), problem)
 }
 
-/// Makes the fault of an error of the crate, without the line that it counts and the insides of its parser.
-fn fault(error: &ParseError) -> Fault {
-    let text = error.to_string();
-    let text =
-        text.split_once(": ").filter(|(line, _)| line.starts_with("Line ")).map_or(&*text, |(_, text)| text);
-    let text = text.split(" Error: ParseError").next().unwrap_or_default();
-    Fault::whole(format!("this cannot be read: {text}"))
+/// The rows of an element that the crate cannot read.
+struct Unread {
+    /// True where the file ends too soon.
+    is_cut_off: bool,
+    fault: Fault,
+}
+
+impl Unread {
+    fn of(name: &str, count: usize, error: &ParseError) -> Self {
+        let is_cut_off = error.kind() == ErrorKind::UnexpectedEof;
+        let problem = if is_cut_off {
+            format!("the file ends before its {count} rows: it has been cut off, or its header is wrong")
+        } else {
+            format!(
+                "its {count} rows are not of the types that the header announces; save the file again as PLY"
+            )
+        };
+        Self { is_cut_off, fault: Fault::part(format!("element {name}"), problem) }
+    }
 }

@@ -88,10 +88,15 @@ pub(super) fn by_name(bytes: &[u8], path: &Path) -> Option<MeshFormat> {
     match ending.as_str() {
         "stl" if begins_a_line("vertex") => Some(MeshFormat::StlText),
         "stl" if bytes.len() >= STL_START && bytes.contains(&0) => Some(MeshFormat::StlBinary),
-        "obj" if begins_a_line("v") => Some(MeshFormat::Obj),
+        "obj" if begins_a_line("v") || has_corner(bytes) => Some(MeshFormat::Obj),
         "gltf" if !text.trim().is_empty() => Some(MeshFormat::Gltf),
         _ => None,
     }
+}
+
+/// Returns whether some line is one of a corner, however long the comments above it are.
+fn has_corner(bytes: &[u8]) -> bool {
+    bytes.split(|byte| *byte == b'\n').any(|line| line.trim_ascii_start().starts_with(b"v "))
 }
 
 /// Returns the number of triangles that a binary STL states.

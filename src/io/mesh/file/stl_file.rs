@@ -36,8 +36,15 @@ pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<ParsedMesh, Fault> {
 /// warning where the two disagree. The length decides, unless more bytes follow than the triangles need.
 fn count(announced: u64, length: usize) -> (u64, Option<String>) {
     let (there, rest) = (length as u64 / STL_TRIANGLE, length as u64 % STL_TRIANGLE);
-    if announced == there || announced > 0 && announced < there && rest > 0 {
+    if announced == there {
         return (announced, None);
+    }
+    if announced > 0 && announced < there && rest > 0 {
+        let behind = length as u64 - announced * STL_TRIANGLE;
+        let warning = format!(
+            "offset {STL_HEADER}: {announced} triangles are announced; {behind} bytes behind them are left out"
+        );
+        return (announced, Some(warning));
     }
     let cut_off = if rest > 0 { "; the last one has been cut off" } else { "" };
     let warning = format!(
@@ -48,14 +55,14 @@ fn count(announced: u64, length: usize) -> (u64, Option<String>) {
 
 /// Reads all triangles of a binary STL, each with corners of its own.
 fn triangles(bytes: Vec<u8>) -> Result<Surface, Fault> {
-    let unreadable = |number: usize, error: std::io::Error| {
-        Fault::part(format!("triangle {number}"), format!("this cannot be read: {error}"))
+    let unreadable = |number: usize| {
+        Fault::part(format!("triangle {number}"), "its bytes cannot be read; save the file again as STL")
     };
     let mut reader = Cursor::new(bytes);
-    let list = stl_io::create_stl_reader(&mut reader).map_err(|error| unreadable(1, error))?;
+    let list = stl_io::create_stl_reader(&mut reader).map_err(|_| unreadable(1))?;
     let (mut vertices, mut triangles) = (vec![], vec![]);
     for (number, triangle) in (1..).zip(list) {
-        let triangle = triangle.map_err(|error| unreadable(number, error))?;
+        let triangle = triangle.map_err(|_| unreadable(number))?;
         let first = vertices.len() as u32;
         vertices.extend(triangle.vertices.map(|v| DVec3::from_array(v.0.map(f64::from))));
         triangles.push([first, first + 1, first + 2]);

@@ -7,6 +7,7 @@ mod faults;
 mod kinds;
 mod packed;
 mod real;
+mod unusual;
 
 use super::statement::Measures;
 use super::*;

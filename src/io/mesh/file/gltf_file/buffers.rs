@@ -2,6 +2,7 @@
 //! stay within them.
 
 use super::super::limits::{self, MAX_BYTES};
+use super::instances;
 use super::meshopt::{self, Packed};
 use super::repair::DRACO;
 use super::uri;
@@ -119,9 +120,13 @@ fn needed(document: &Document) -> BTreeSet<usize> {
     views.flat_map(|view| [Some(view.buffer().index()), packed(&view)]).flatten().collect()
 }
 
-/// Returns the views of positions, of their displacements, and of indices, and those of packed shapes.
+/// Returns the views of positions, of their displacements, and of indices, those of the places of copies, and those of packed
+/// shapes.
 fn needed_views(document: &Document) -> BTreeSet<usize> {
     let mut views = BTreeSet::new();
+    let copies = document.nodes().flat_map(|node| instances::accessors(&node, document));
+    let view = |accessor: Accessor<'_>| accessor.view().map(|view| view.index());
+    views.extend(copies.filter_map(view));
     for primitive in document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>()) {
         let shifts = primitive.morph_targets().filter_map(|target| target.positions());
         let own = [primitive.get(&Semantic::Positions), primitive.indices()].into_iter().flatten();
@@ -139,27 +144,62 @@ fn needed_views(document: &Document) -> BTreeSet<usize> {
 
 /// Reads the vectors of an accessor, of any type of numbers that KHR_mesh_quantization allows.
 pub(super) fn vectors(accessor: &Accessor<'_>, data: &Data) -> Result<Vec<DVec3>, Fault> {
+    Ok(values::<3>(accessor, Dimensions::Vec3, data)?.into_iter().map(DVec3::from_array).collect())
+}
+
+/// Reads the quaternions of an accessor, x, y, z and w, of any length.
+pub(super) fn quaternions(accessor: &Accessor<'_>, data: &Data) -> Result<Vec<[f64; 4]>, Fault> {
+    values::<4>(accessor, Dimensions::Vec4, data)
+}
+
+fn values<const N: usize>(
+    accessor: &Accessor<'_>,
+    shape: Dimensions,
+    data: &Data,
+) -> Result<Vec<[f64; N]>, Fault>
+where
+    [i8; N]: Item,
+    [u8; N]: Item,
+    [i16; N]: Item,
+    [u16; N]: Item,
+    [f32; N]: Item,
+{
     let types = [DataType::F32, DataType::I8, DataType::U8, DataType::I16, DataType::U16];
-    check(accessor, &types, Dimensions::Vec3, data)?;
+    check(accessor, &types, shape, data)?;
     let is_normalized = accessor.normalized();
     let scaled = |most: f64| move |x: f64| if is_normalized { (x / most).max(-1.0) } else { x };
     match accessor.data_type() {
-        DataType::I8 => numbers::<i8>(accessor, data, scaled(127.0)),
-        DataType::U8 => numbers::<u8>(accessor, data, scaled(255.0)),
-        DataType::I16 => numbers::<i16>(accessor, data, scaled(32_767.0)),
-        DataType::U16 => numbers::<u16>(accessor, data, scaled(65_535.0)),
-        _ => numbers::<f32>(accessor, data, |x| x),
+        DataType::I8 => numbers::<i8, N>(accessor, data, scaled(127.0)),
+        DataType::U8 => numbers::<u8, N>(accessor, data, scaled(255.0)),
+        DataType::I16 => numbers::<i16, N>(accessor, data, scaled(32_767.0)),
+        DataType::U16 => numbers::<u16, N>(accessor, data, scaled(65_535.0)),
+        _ => numbers::<f32, N>(accessor, data, |x| x),
     }
-    .ok_or_else(|| Fault::whole("its corners cannot be read"))
+    .ok_or_else(|| Fault::whole("its values cannot be read; save the file again"))
 }
 
-fn numbers<T: Item + Copy + Into<f64>>(
+fn numbers<T: Copy + Into<f64>, const N: usize>(
     accessor: &Accessor<'_>,
     data: &Data,
     scaled: impl Fn(f64) -> f64,
-) -> Option<Vec<DVec3>> {
-    let values = Iter::<[T; 3]>::new(accessor.clone(), |buffer| data.get(buffer.index()).map(Vec::as_slice))?;
-    Some(values.map(|vector| DVec3::from_array(vector.map(|x| scaled(x.into())))).collect())
+) -> Option<Vec<[f64; N]>>
+where
+    [T; N]: Item,
+{
+    let values = Iter::<[T; N]>::new(accessor.clone(), |buffer| data.get(buffer.index()).map(Vec::as_slice))?;
+    Some(values.map(|vector| vector.map(|x| scaled(x.into()))).collect())
+}
+
+/// Returns the name that glTF gives to a type of numbers.
+fn type_name(of: DataType) -> &'static str {
+    match of {
+        DataType::I8 => "BYTE",
+        DataType::U8 => "UNSIGNED_BYTE",
+        DataType::I16 => "SHORT",
+        DataType::U16 => "UNSIGNED_SHORT",
+        DataType::U32 => "UNSIGNED_INT",
+        DataType::F32 => "FLOAT",
+    }
 }
 
 /// Checks that an accessor has one of the expected types and lies within its buffers; the crate checks neither.
@@ -171,13 +211,18 @@ pub(super) fn check(
 ) -> Result<(), Fault> {
     let fault = |message: String| Err(Fault::part(format!("accessor {}", accessor.index()), message));
     if !types.contains(&accessor.data_type()) || accessor.dimensions() != shape {
+        let types: Vec<&str> = types.iter().map(|expected| type_name(*expected)).collect();
         return fault(format!(
-            "{:?} of {:?} are given; {shape:?} of {types:?} are expected",
+            "its values are {:?} of {}; {shape:?} of {} are expected; save the file again with these",
             accessor.dimensions(),
-            accessor.data_type()
+            type_name(accessor.data_type()),
+            types.join(", ")
         ));
     }
     let (count, size) = (accessor.count(), accessor.size());
+    if count == 0 {
+        return fault("it has no values; one or more are expected".to_owned());
+    }
     limits::count(count, count / 3)?;
     let mut parts = vec![(accessor.view(), accessor.offset(), count, size)];
     if let Some(sparse) = accessor.sparse() {
@@ -195,8 +240,32 @@ pub(super) fn check(
         Some((_, offset, count, size)) => fault(format!(
             "{count} values of {size} bytes from {offset} on are more than its buffer view holds"
         )),
-        None => Ok(()),
+        None => check_places(accessor, data),
     }
+}
+
+/// Checks that the places of an accessor's sparse values exist, in rising order; the crate leaves others out.
+fn check_places(accessor: &Accessor<'_>, data: &Data) -> Result<(), Fault> {
+    let Some(sparse) = accessor.sparse() else { return Ok(()) };
+    let indices = sparse.indices();
+    let (view, size) = (indices.view(), indices.index_type().size());
+    let start = view.offset() + indices.offset();
+    let bytes = &data[view.buffer().index()][start..start + size * sparse.count()];
+    let place =
+        |bytes: &[u8]| bytes.iter().rev().fold(0, |place: usize, byte| place << 8 | usize::from(*byte));
+    let mut next = 0;
+    for place in bytes.chunks_exact(size).map(place) {
+        if place < next || place >= accessor.count() {
+            let problem = format!(
+                "it has a sparse value at place {place}, where rising places below {} are expected; save the file \
+                 without sparse values",
+                accessor.count()
+            );
+            return Err(Fault::part(format!("accessor {}", accessor.index()), problem));
+        }
+        next = place + 1;
+    }
+    Ok(())
 }
 
 fn fits(view: &View<'_>, offset: usize, count: usize, size: usize, data: &Data) -> bool {

@@ -25,7 +25,9 @@ pub(super) fn unpacked(
     data: &Data,
 ) -> Result<Option<Unpacked>, Fault> {
     let Some(extension) = primitive.extension_value(DRACO) else { return Ok(None) };
-    let fault = |why: &str| Fault::whole(format!("its {DRACO} cannot be read: {why}"));
+    let fault = |why: &str| {
+        Fault::whole(format!("its {DRACO} cannot be read: {why}; save the file again, or without it"))
+    };
     let view = extension.get("bufferView").and_then(Value::as_u64);
     let view = view.and_then(|view| document.views().nth(usize::try_from(view).ok()?));
     let view = view.ok_or_else(|| fault("it has no buffer view"))?;
@@ -39,7 +41,7 @@ pub(super) fn unpacked(
     let mut mesh = Mesh::new();
     MeshDecoder::new()
         .decode(&mut DecoderBuffer::new(bytes).with_limits(most), &mut mesh)
-        .map_err(|error| fault(&error.to_string()))?;
+        .map_err(|_| fault("its packed bytes are damaged, or packed in a way that is not read"))?;
     limits::count(mesh.num_points(), mesh.num_faces())?;
     let own = extension.pointer("/attributes/POSITION").and_then(Value::as_u64);
     let own = own.and_then(|id| mesh.attribute_by_unique_id(u32::try_from(id).ok()?));

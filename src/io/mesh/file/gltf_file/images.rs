@@ -3,6 +3,7 @@
 use super::buffers::Data;
 use super::uri;
 use crate::io::file_error::Fault;
+use crate::io::undecoded::Undecoded;
 use gltf::Document;
 use gltf::json::Image;
 use image::{ImageFormat, ImageReader, guess_format};
@@ -54,7 +55,7 @@ fn check(bytes: &[u8]) -> Result<(), Fault> {
     match guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => {
             let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions();
-            size.map(|_| ()).map_err(|error| Fault::whole(format!("it is broken: {error}")))
+            size.map(|_| ()).map_err(|error| Fault::whole(error.reason()))
         }
         // `image` is built here without the readers of these formats.
         Ok(ImageFormat::WebP | ImageFormat::Avif | ImageFormat::Dds) => Ok(()),

@@ -36,14 +36,22 @@ impl Packed<'_> {
             _ => None,
         };
         let mut bytes = found.ok_or_else(|| {
-            format!("its {} bytes of {NAME} ({}) cannot be unpacked", self.bytes.len(), self.mode)
+            format!(
+                "its {} bytes of {NAME} ({}) cannot be unpacked; save the file without it",
+                self.bytes.len(),
+                self.mode
+            )
         })?;
         match self.filter {
             "EXPONENTIAL" => bytes.as_chunks_mut::<4>().0.iter_mut().for_each(exponential),
             "" | "NONE" => {}
             // The directions that these hold are not read.
             "OCTAHEDRAL" | "QUATERNION" => {}
-            other => return Err(format!("the filter {other} of {NAME} is not known").into()),
+            other => {
+                return Err(
+                    format!("the filter {other} of {NAME} is not known; save the file without it").into()
+                );
+            }
         }
         Ok(bytes)
     }

@@ -112,7 +112,7 @@ fn with_finite_numbers(json: &[u8]) -> (Vec<u8>, Option<String>) {
 }
 
 /// Returns the length of the string that a text begins with, in bytes with its quotes.
-fn string_length(text: &[u8]) -> usize {
+pub(super) fn string_length(text: &[u8]) -> usize {
     let mut escaped = false;
     let is_end = |byte: &u8| {
         let ends = *byte == b'"' && !escaped;

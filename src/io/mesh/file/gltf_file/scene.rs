@@ -5,15 +5,16 @@ use super::super::limits;
 use super::super::parsed_mesh::ParsedMesh;
 use super::buffers::{self, Data};
 use super::draco::{self, Unpacked};
+use super::instances;
 use crate::io::file_error::Fault;
 use crate::io::mesh::export::{FACET, STATEMENT};
 use crate::math::Surface;
-use glam::{DAffine3, DMat4, DQuat, DVec3};
+use glam::{DAffine3, DMat4, DVec3};
 use gltf::accessor::{DataType, Dimensions};
-use gltf::mesh::Mode;
+use gltf::mesh::{Mesh, Mode};
 use gltf::scene::Transform;
 use gltf::{Document, Material, Node, Primitive, Scene, Semantic};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The greatest depth of nodes within one another; deeper nodes are taken for a cycle.
 const MOST_NESTED: usize = 100;
@@ -54,17 +55,38 @@ pub(super) fn gather(document: &Document, data: &Data) -> Result<(ParsedMesh, Op
         }
         return Ok((mesh, scene.name().map(str::to_owned)));
     }
-    Ok((gather_from(rootless(document), document, data)?, None))
+    let mut mesh = gather_from(rootless(document), document, data)?;
+    if mesh.surface.triangles.is_empty() {
+        mesh = gather_unplaced(document, data)?;
+    } else if !scenes.is_empty() {
+        mesh.notes.push("no scene of the file has triangles; all its nodes are read".to_owned());
+    }
+    Ok((mesh, None))
+}
+
+/// Gathers the triangles of the meshes that no node places, where they were modelled.
+fn gather_unplaced(document: &Document, data: &Data) -> Result<ParsedMesh, Fault> {
+    let placed: BTreeSet<usize> =
+        document.nodes().filter_map(|node| node.mesh()).map(|mesh| mesh.index()).collect();
+    let mut gatherer = Gatherer::of(document, data);
+    for mesh in document.meshes().filter(|mesh| !placed.contains(&mesh.index())) {
+        let (name, weights) = (mesh.name().unwrap_or_default(), mesh.weights().unwrap_or_default());
+        gatherer.mesh(&mesh, Posture { name, placed: DAffine3::IDENTITY, weights })?;
+    }
+    let mut mesh = gatherer.finish();
+    if !mesh.surface.triangles.is_empty() {
+        mesh.notes
+            .push("no node places the meshes of the file; they are read as they were modelled".to_owned());
+    }
+    Ok(mesh)
 }
 
 fn gather_from(roots: Vec<Node<'_>>, document: &Document, data: &Data) -> Result<ParsedMesh, Fault> {
-    let mesh = ParsedMesh::default();
-    let mut gatherer =
-        Gatherer { document, data, mesh, visited: 0, materials: BTreeMap::new(), skipped: 0, hidden: 0 };
+    let mut gatherer = Gatherer::of(document, data);
     for root in roots {
         gatherer.node(&root, DAffine3::IDENTITY, 0)?;
     }
-    gatherer.finish()
+    Ok(gatherer.finish())
 }
 
 /// Returns the nodes that are no node's children, for a file without scenes.
@@ -83,6 +105,11 @@ struct Gatherer<'a> {
     materials: BTreeMap<usize, usize>,
     skipped: usize,
     hidden: usize,
+    /// The number of parts with corners at the end that make no whole triangle.
+    uneven: usize,
+    /// The number of nodes whose matrix is no placement, and of those that state their placement twice.
+    slanted: usize,
+    doubled: usize,
 }
 
 /// Where the corners of a node's mesh lie, and what they are called.
@@ -94,21 +121,43 @@ struct Posture<'a> {
     weights: &'a [f32],
 }
 
-impl Gatherer<'_> {
-    fn node(&mut self, node: &Node<'_>, above: DAffine3, depth: usize) -> Result<(), Fault> {
+impl<'a> Gatherer<'a> {
+    fn of(document: &'a Document, data: &'a Data) -> Self {
+        Gatherer {
+            document,
+            data,
+            mesh: ParsedMesh::default(),
+            visited: 0,
+            materials: BTreeMap::new(),
+            skipped: 0,
+            hidden: 0,
+            uneven: 0,
+            slanted: 0,
+            doubled: 0,
+        }
+    }
+
+    /// Counts one more node or copy.
+    fn visit(&mut self, node: &Node<'_>, depth: usize) -> Result<(), Fault> {
         self.visited += 1;
         if depth > MOST_NESTED || self.visited > MOST_NODES {
             let message = format!(
-                "nodes are nested more than {MOST_NESTED} deep, or there are more than {MOST_NODES}; perhaps a node \
-                    contains itself"
+                "nodes are nested more than {MOST_NESTED} deep, or there are more than {MOST_NODES} with their copies; \
+                 perhaps a node contains itself"
             );
             return Err(Fault::part(format!("node {}", node.index()), message));
         }
+        Ok(())
+    }
+
+    fn node(&mut self, node: &Node<'_>, above: DAffine3, depth: usize) -> Result<(), Fault> {
+        self.visit(node, depth)?;
         let visible = node.extension_value(HIDDEN).and_then(|extension| extension.get("visible")?.as_bool());
         if visible == Some(false) {
             self.hidden += 1;
             return Ok(());
         }
+        self.mark_odd(node);
         let placed = above * transform(&node.transform());
         if self.mesh.said.is_none() {
             self.mesh.said = text_of(node.extras(), STATEMENT);
@@ -117,16 +166,35 @@ impl Gatherer<'_> {
             // Several nodes may show one mesh, so that their own names tell them apart.
             let name = node.name().or(mesh.name()).unwrap_or_default();
             let weights = node.weights().or(mesh.weights()).unwrap_or_default();
-            for primitive in mesh.primitives() {
-                let posture = Posture { name, placed, weights };
-                self.primitive(&primitive, posture).map_err(|fault| {
-                    let joint = if fault.key.is_some() { ", " } else { ": " };
-                    let own = format!("mesh {}, primitive {}{joint}", mesh.index(), primitive.index());
-                    fault.within(&own, &own)
-                })?;
+            let place = format!("node {}", node.index());
+            let copies = instances::places(node, self.document, self.data);
+            for copy in copies.map_err(|fault| Fault::part(place, fault))? {
+                self.visit(node, depth)?;
+                self.mesh(&mesh, Posture { name, placed: placed * copy, weights })?;
             }
         }
         node.children().try_for_each(|child| self.node(&child, placed, depth + 1))
+    }
+
+    fn mesh(&mut self, mesh: &Mesh<'_>, posture: Posture<'_>) -> Result<(), Fault> {
+        for primitive in mesh.primitives() {
+            self.primitive(&primitive, posture).map_err(|fault| {
+                let joint = if fault.key.is_some() { ", " } else { ": " };
+                let own = format!("mesh {}, primitive {}{joint}", mesh.index(), primitive.index());
+                fault.within(&own, &own)
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Counts a node whose placement is more or other than glTF allows.
+    fn mark_odd(&mut self, node: &Node<'_>) {
+        let Transform::Matrix { matrix } = node.transform() else { return };
+        let last = matrix.map(|column| column[3]);
+        self.slanted += usize::from(last != [0.0, 0.0, 0.0, 1.0]);
+        let stated = &self.document.as_json().nodes[node.index()];
+        let is_doubled = stated.translation.is_some() || stated.rotation.is_some() || stated.scale.is_some();
+        self.doubled += usize::from(is_doubled);
     }
 
     fn primitive(&mut self, primitive: &Primitive<'_>, posture: Posture<'_>) -> Result<(), Fault> {
@@ -144,6 +212,7 @@ impl Gatherer<'_> {
         if let Some(bad) = order.iter().find(|&&v| v as usize >= vertices.len()) {
             return Err(format!("it refers to corner {bad}, from 0, and there are {}", vertices.len()).into());
         }
+        self.uneven += usize::from(mode == Mode::Triangles && !order.len().is_multiple_of(3));
         let mut triangles = triangles(&order, mode);
         if posture.placed.matrix3.determinant() < 0.0 {
             // A mirror image shows the other side of its triangles.
@@ -190,6 +259,14 @@ impl Gatherer<'_> {
         {
             let Some(positions) = target.positions() else { continue };
             let shifts = buffers::vectors(&positions, self.data)?;
+            if shifts.len() != vertices.len() {
+                return Err(format!(
+                    "a morph target displaces {} corners, and there are {}; save the file without morph targets",
+                    shifts.len(),
+                    vertices.len()
+                )
+                .into());
+            }
             vertices.iter_mut().zip(shifts).for_each(|(v, shift)| *v += f64::from(weight) * shift);
         }
         Ok(())
@@ -205,13 +282,26 @@ impl Gatherer<'_> {
         given.into_iter().flatten().take(corners).map(|normal| turn * normal).collect()
     }
 
-    fn finish(mut self) -> Result<ParsedMesh, Fault> {
+    fn finish(mut self) -> ParsedMesh {
         let document = self.document;
         let most = self.materials.iter().max_by_key(|(index, count)| (**count, std::cmp::Reverse(**index)));
         self.mesh.hint = most.and_then(|(&index, _)| hint(&document.materials().nth(index)?));
         let mut warn = |odd: bool, text: String| self.mesh.warnings.extend(odd.then_some(text));
         warn(self.skipped > 0, format!("{} parts of points or lines are left out", self.skipped));
         warn(self.hidden > 0, format!("{} hidden nodes are left out, with all below them", self.hidden));
+        let count = self.uneven;
+        warn(count > 0, format!("the last corners of {count} parts make no whole triangle and are left out"));
+        warn(
+            self.slanted > 0,
+            format!(
+                "the matrices of {} nodes do more than place; their last rows are left out",
+                self.slanted
+            ),
+        );
+        warn(
+            self.doubled > 0,
+            format!("{} nodes state their places twice; those of their matrices are read", self.doubled),
+        );
         warn(
             self.materials.len() > 1,
             format!(
@@ -223,7 +313,7 @@ impl Gatherer<'_> {
             document.skins().len() > 0,
             "the mesh is in the pose in which it was modelled; skins are not read".into(),
         );
-        Ok(self.mesh)
+        self.mesh
     }
 }
 
@@ -234,10 +324,7 @@ fn transform(given: &Transform) -> DAffine3 {
         }
         Transform::Decomposed { translation, rotation, scale } => {
             let [t, s] = [translation, scale].map(|v| DVec3::from_array(v.map(f64::from)));
-            let turn = DQuat::from_array(rotation.map(f64::from));
-            // A rotation that has no length turns nothing.
-            let turn = if turn.length() > 0.0 { turn * (1.0 / turn.length()) } else { DQuat::IDENTITY };
-            DAffine3::from_scale_rotation_translation(s, turn, t)
+            DAffine3::from_scale_rotation_translation(s, instances::turned(rotation.map(f64::from)), t)
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Reduces a glTF file to its shape, for files in which some other part is broken.
 
+use super::instances;
 use super::meshopt;
 use super::repair::{DRACO, list};
 use super::scene::HIDDEN;
@@ -26,13 +27,16 @@ pub(super) fn shape_alone(root: &Value, keeps_materials: bool) -> Option<Vec<u8>
         root.remove("materials");
     }
     let materials = list(root, "materials").iter_mut().map(|material| *material = of_light(material)).count();
+    let (mut accessors, mut packed) = (BTreeSet::new(), BTreeSet::new());
     for node in list(root, "nodes").iter_mut().filter_map(Value::as_object_mut) {
         let keys =
             ["name", "children", "mesh", "weights", "matrix", "translation", "rotation", "scale", "extras"];
         keep(node, &[keys.as_slice(), &["extensions"]].concat());
-        keep_extensions(node, &[HIDDEN]);
+        keep_extensions(node, &[HIDDEN, instances::NAME]);
+        accessors.extend(instances::PLACING.iter().filter_map(|name| {
+            index(node.get("extensions")?.get(instances::NAME)?.get("attributes")?, name)
+        }));
     }
-    let (mut accessors, mut packed) = (BTreeSet::new(), BTreeSet::new());
     for mesh in list(root, "meshes").iter_mut().filter_map(Value::as_object_mut) {
         keep(mesh, &["name", "primitives", "weights"]);
         for primitive in list(mesh, "primitives").iter_mut().filter_map(Value::as_object_mut) {

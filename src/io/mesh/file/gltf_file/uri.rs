@@ -22,33 +22,35 @@ pub(super) fn read(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
     if let Some((_, rest)) = scheme.filter(|(scheme, _)| scheme.eq_ignore_ascii_case(DATA)) {
         return written_out(rest);
     }
-    let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
-    let Some(path) = folder.and_then(|folder| within(folder, &name)) else {
+    let decoded = |uri| percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
+    let name = decoded(uri);
+    // Some programs write names as they are, though they hold a percent sign; some add a query for a server.
+    let bare = uri.split(['?', '#']).next().unwrap_or_default();
+    let paths = [name.clone(), uri.into(), decoded(bare)];
+    let paths: Vec<PathBuf> = paths.iter().filter_map(|name| within(folder?, name)).collect();
+    let Some(path) = paths.iter().find(|path| path.exists()).or(paths.first()) else {
         return Err(format!(
             "`{name:.80}` is not a file beside this one or below; put it there, or embed it"
         )
         .into());
     };
-    // Some programs write names as they are, though they hold a percent sign.
-    let literal = folder.and_then(|folder| within(folder, uri)).filter(|path| path.exists());
-    let path = if path.exists() { path } else { literal.unwrap_or(path) };
-    limits::bytes(&path).map_err(|fault| Fault::whole(format!("{name}: {fault}")))
+    limits::bytes(path).map_err(|fault| Fault::whole(format!("{name}: {fault}")))
 }
 
-/// Returns the file of a relative path within a folder. Only files within it are read: an untrusted mesh must not make the
+/// Returns the file of a relative path within a folder, whose parts `.` and `..` are taken out as in addresses (RFC 3986,
+/// section 5.2.4), whatever lies on the disk. Only files within the folder are read: an untrusted mesh must not make the
 /// program read others.
 fn within(folder: &Path, name: &str) -> Option<PathBuf> {
     let is_absolute = name.starts_with(['/', '\\']) || name.contains([':', '\0']);
-    let mut path = folder.to_path_buf();
-    let mut is_named = false;
-    for part in name.split(['/', '\\']).filter(|part| !matches!(*part, "" | ".")) {
-        if part == ".." {
-            return None;
+    let mut parts = vec![];
+    for part in name.split(['/', '\\']) {
+        match part {
+            "" | "." => {}
+            ".." => drop(parts.pop()?),
+            part => parts.push(part),
         }
-        path.push(part);
-        is_named = true;
     }
-    (is_named && !is_absolute).then_some(path)
+    (!parts.is_empty() && !is_absolute).then(|| folder.join(parts.iter().collect::<PathBuf>()))
 }
 
 /// Returns the bytes of an address that holds them itself, behind `data:`.
@@ -63,7 +65,9 @@ fn written_out(rest: &str) -> Result<Vec<u8>, Fault> {
     let is_safe = digits.iter().any(|byte| matches!(byte, b'-' | b'_'));
     let alphabet = if is_safe { &URL_SAFE } else { &STANDARD };
     let decoded = GeneralPurpose::new(alphabet, TOLERANT).decode(digits);
-    decoded.map_err(|error| Fault::whole(format!("this is not base64: {error}")))
+    let problem =
+        "the bytes that stand in it are not base64; save the file again, or with a buffer beside it";
+    decoded.map_err(|_| problem.into())
 }
 
 #[cfg(test)]
@@ -92,13 +96,52 @@ mod tests {
     #[test]
     fn only_files_within_the_folder_are_read() {
         let folder = Path::new("/a/b");
-        for (name, path) in
-            [("c.bin", "/a/b/c.bin"), ("./d/c.bin", "/a/b/d/c.bin"), ("d\\c.bin", "/a/b/d/c.bin")]
-        {
+        for (name, path) in [
+            ("c.bin", "/a/b/c.bin"),
+            ("./d/c.bin", "/a/b/d/c.bin"),
+            ("d\\c.bin", "/a/b/d/c.bin"),
+            ("d/../c.bin", "/a/b/c.bin"),
+            ("d/./e/../../f/c.bin", "/a/b/f/c.bin"),
+        ] {
             assert_eq!(within(folder, name).as_deref(), Some(Path::new(path)), "{name}");
         }
-        for outside in ["../c", "d/../c", "/c", "\\c", "C:\\c", "file:///c", "", ".", "./", "..", "a\0b"] {
+        for outside in [
+            "../c",
+            "d/../../c",
+            "d/../../b/c",
+            "d/..",
+            "/c",
+            "\\c",
+            "C:\\c",
+            "file:///c",
+            "",
+            ".",
+            "./",
+            "..",
+            "a\0b",
+        ] {
             assert_eq!(within(folder, outside), None, "{outside}");
         }
+    }
+
+    #[test]
+    fn a_query_behind_the_name_of_a_file_is_no_part_of_it() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, byte) in [("c.bin", 1), ("d#1.bin", 2), ("e f%.bin", 3)] {
+            std::fs::write(folder.path().join(name), [byte]).unwrap();
+        }
+        for (uri, byte) in [
+            ("c.bin", 1),
+            ("c.bin?v=2", 1),
+            ("./d/../c.bin#x", 1),
+            ("%63.bin?a:b", 1),
+            ("d#1.bin", 2),
+            ("d%231.bin", 2),
+            ("e%20f%.bin", 3),
+        ] {
+            assert_eq!(read(uri, Some(folder.path())).unwrap(), [byte], "{uri}");
+        }
+        let missing = read("g.bin?v=2", Some(folder.path())).unwrap_err().to_string();
+        assert_eq!(missing, "g.bin?v=2: there is no such file");
     }
 }
