@@ -37,10 +37,16 @@ fn editor() -> Option<brillianteer::cli::EditorOpener> {
 #[cfg(target_os = "linux")]
 const MANY_THREADS: usize = 8;
 
-/// Asks the system for pages of 4 KiB alone where many threads will trace light.
+/// The number of the allocator's option for the time after which pages that are no longer used go back to the system, ms
+/// (`mi_option_purge_delay`, which the binding does not name).
+#[cfg(target_os = "linux")]
+const PURGE_DELAY: i32 = 15;
+
+/// Asks the system for pages of 4 KiB alone where many threads will trace light, and the allocator to give pages back soon.
 ///
 /// Every thread fills pages of its own. With huge pages of 2 MiB, a thread takes 3 to 5 MiB however little it holds: 200 MiB
-/// for 64 threads. With few threads, huge pages cost little and save a tenth of the time of short commands.
+/// for 64 threads. With few threads, huge pages cost little and save a tenth of the time of short commands. Pages that the
+/// allocator gives back after its usual second make a search with 32 threads hold 860 MiB, where 590 are in use.
 #[cfg(target_os = "linux")]
 fn spare_memory_on_many_cores() {
     // Rayon reads the same variable. It is asked for its number only later, because that starts its threads.
@@ -50,6 +56,11 @@ fn spare_memory_on_many_cores() {
     if threads >= MANY_THREADS {
         // Where the system refuses, the program only takes more memory.
         let _ = rustix::thread::disable_transparent_huge_pages(true);
+        // SAFETY: the call writes one number that the allocator reads at each purge, and the program has one thread yet.
+        #[expect(unsafe_code, reason = "the binding of the allocator has no safe function for its options")]
+        unsafe {
+            libmimalloc_sys::mi_option_set(PURGE_DELAY, 10);
+        }
     }
 }
 

@@ -304,7 +304,8 @@ fn a_light_that_is_being_drawn_is_shown_coarsely_at_once_and_nothing_fine_is_mad
     assert!(says(&bench, "loading the light… ·"), "the light before is shown");
     let coarse = ShotLight::coarse(Lighting::load("ring").unwrap());
     come(&mut bench, &coarse);
-    assert!(is_drawn(&bench.picture(0)) && says(&bench, "drawing the light… ·"));
+    let rough = bench.editor().shown((0, Which::Present)).unwrap().taken.image.pixels.clone();
+    assert!(is_drawn(&rough) && says(&bench, "drawing the light… ·"));
     bench.wait(|editor| editor.studio.is_idle());
     assert!(!bench.editor().is_idle() && says(&bench, "drawing the light… ·"));
     assert!(bench.editor().views.gallery.traced[&(0, Which::Present)].grade == Grade::Rough);
