@@ -1,6 +1,7 @@
 //! The error for a crossed limit: the proportion, the excess, and the remedy.
 
 use super::family::{Proportion, Unit};
+use crate::math::as_written;
 use std::f64::consts::FRAC_PI_2;
 
 /// The reason why no cut of a family can have the given proportions. The message names the proportion by its key in cut
@@ -93,10 +94,10 @@ impl Limit {
         let Self { row: Proportion { unit, .. }, value, limit, inclusive, .. } = *self;
         let gap = (value - limit).abs();
         let near = gap < 0.01;
-        let limit = if near || limit.abs() < 0.005 { given(limit) } else { rounded(limit) };
+        let limit = if near || limit.abs() < 0.005 { as_written(limit) } else { rounded(limit) };
         let side = if inclusive { closed } else { open };
         let step = if inclusive { (gap * 100.0).ceil() } else { (gap * 100.0).floor() + 1.0 } / 100.0;
-        let value = given(if near { value } else { four_decimals(value) });
+        let value = as_written(if near { value } else { four_decimals(value) });
         let (step, hint) = (Self::step(step), self.unit_hint());
         format!("{value}{unit} must be {side} {limit}{unit}, {}; {change} it{step}{hint}", self.clause())
     }
@@ -123,15 +124,9 @@ impl Limit {
     }
 }
 
-/// Formats a number as it was written, with an exponent instead of hundreds of digits.
-pub(super) fn given(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || (1e-4..1e7).contains(&size) { format!("{value}") } else { format!("{value:e}") }
-}
-
 /// Formats a number to two decimals, without trailing zeros.
 pub(super) fn rounded(value: f64) -> String {
-    given((value * 100.0).round() / 100.0)
+    as_written((value * 100.0).round() / 100.0)
 }
 
 /// Rounds a number to four decimals. Numbers beyond 1e12 have none to round off.

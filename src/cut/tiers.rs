@@ -6,8 +6,7 @@
 use super::frosting::FROSTINGS;
 use super::meets::Meet;
 use super::names;
-use super::proportion_error::given;
-use crate::math::Plane;
+use crate::math::{Plane, as_written};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -96,19 +95,19 @@ pub enum TierFault {
     #[error("gear: {0} must be from 1 to {MOST_TEETH} teeth, or below 0 where they are counted clockwise")]
     Gear(i32),
     /// An offset that is not a number, or too large.
-    #[error("offset: {} must be a number of teeth", given(*.0))]
+    #[error("offset: {} must be a number of teeth", as_written(*.0))]
     Offset(f64),
     /// An angle out of range.
-    #[error("angle: {} must be from -180 to 180 degrees", given(*.0))]
+    #[error("angle: {} must be from -180 to 180 degrees", as_written(*.0))]
     Angle(f64),
     /// A distance out of range.
-    #[error("distance: {} must be a length, up to {LARGEST}", given(*.0))]
+    #[error("distance: {} must be a length, up to {LARGEST}", as_written(*.0))]
     Distance(f64),
     /// A finish out of range.
-    #[error("frosting: {} must be from 0 (polished) to 1", given(*.0))]
+    #[error("frosting: {} must be from 0 (polished) to 1", as_written(*.0))]
     Frosting(f64),
     /// An index out of range.
-    #[error("index: {} must be a tooth of the gear, up to {LARGEST}", given(*.0))]
+    #[error("index: {} must be a tooth of the gear, up to {LARGEST}", as_written(*.0))]
     Index(f64),
 }
 

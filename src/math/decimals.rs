@@ -1,5 +1,12 @@
 //! Numbers as texts. Every number that people read is written by one of these functions, so that none prints as -0.
 
+/// Returns a number as people write it, with an exponent instead of hundreds of digits.
+pub fn as_written(number: f64) -> String {
+    // Of 0, the sign says nothing.
+    let (number, size) = (number + 0.0, number.abs());
+    if number == 0.0 || (1e-4..1e7).contains(&size) { format!("{number}") } else { format!("{number:e}") }
+}
+
 /// Formats a number with so many decimals, without zeros at its end and without the sign of a number that is rounded to 0.
 pub fn rounded(number: f64, decimals: usize) -> String {
     let text = fixed(number, decimals);

@@ -55,6 +55,7 @@ const ROOMS: [Room; 8] = [
             "FacetError",
             "FromMesh",
             "FromMeshError",
+            "TablePart",
             "Up",
             "UpFound",
             "directions",
