@@ -251,6 +251,19 @@ mod tests {
         }
     }
 
+    /// Planes that noise has moved a little let mains end short of the girdle.
+    #[test]
+    fn mains_that_noise_has_moved_measure_the_girdle_all_the_same() {
+        let mut next = crate::math::mending::tests::noise(5);
+        for _ in 0..20 {
+            let planes = RoundBrilliant { girdle_facets: 96, ..MODERN }.facets().unwrap().into_iter();
+            let moved = planes.map(|(_, plane)| Plane { offset: plane.offset + 1e-4 * next(), ..plane });
+            let measured = Outline::of(&Polytope::from_planes(&moved.collect::<Vec<_>>()).unwrap());
+            let thickness = 50.0 * measured.girdle_thickness();
+            assert!((thickness - MODERN.girdle_thickness).abs() < 0.05, "{thickness}");
+        }
+    }
+
     #[test]
     fn a_stone_measures_the_same_however_it_is_turned_about_its_axis() {
         // A rectangle of 2 by 1.3 with a table that is turned against it, cut off at one corner.

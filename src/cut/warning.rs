@@ -5,10 +5,11 @@ use std::fmt;
 
 use super::family::{Family, Proportion, Unit};
 use super::family_cut::FamilyCut;
-use super::proportion_error::{given, rounded};
+use super::proportion_error::rounded;
 use super::proportions::{Proportions, STAR_AZIMUTH};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::shape::Cut;
+use crate::math::as_written;
 
 /// A property of a stone that its owner may not have meant: a proportion, and its consequence.
 ///
@@ -69,7 +70,7 @@ impl Warning {
                 format!(
                     "{} lies outside the usual range of {} to {}",
                     row.written(value),
-                    given(least),
+                    as_written(least),
                     row.written(most)
                 )
             };
@@ -129,7 +130,7 @@ fn girdle(p: &Proportions) -> Option<String> {
         _ if thickness <= needed => Some(format!(
             "{} % closes to a knife edge in the valleys, where the half facets take away {} %; a thicker girdle \
                 stays open",
-            given(thickness),
+            as_written(thickness),
             rounded(needed)
         )),
         _ => None,
@@ -150,7 +151,7 @@ fn symmetry(count: u32) -> Option<String> {
 /// The octagon in which it cuts the mains has a corner over each lower-half tip, further out than its flats.
 fn culet(p: &Proportions) -> Option<String> {
     let reach = (1.0 - p.lower) * STAR_AZIMUTH.cos();
-    let [size, tips] = [given(100.0 * p.culet), rounded(100.0 * reach)];
+    let [size, tips] = [as_written(100.0 * p.culet), rounded(100.0 * reach)];
     let text = format!(
         "{size} % reaches the tips of the lower halves at {tips} %, so neighbouring mains no longer touch"
     );

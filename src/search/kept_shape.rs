@@ -35,8 +35,11 @@ pub(super) fn usual_limits(goal: &Goal, stone: &Stone) -> BTreeMap<String, AtLea
         let (least, most) = ((girdle - GIRDLE_WITHIN).max(0.5 * girdle), girdle + GIRDLE_WITHIN);
         limits.insert(GIRDLE.to_owned(), AtLeastAtMost { at_least: Some(least), at_most: Some(most) });
     }
-    for name in [NEW_FINDINGS, LOWER_CLASS] {
-        limits.insert(name.to_owned(), AtLeastAtMost { at_least: None, at_most: Some(0.0) });
+    let none = AtLeastAtMost { at_least: None, at_most: Some(0.0) };
+    limits.insert(NEW_FINDINGS.to_owned(), none);
+    // The class is one of diamond, which a design for other materials need not keep.
+    if goal.measure.iter().any(|measure| measure.material.is_none()) {
+        limits.insert(LOWER_CLASS.to_owned(), none);
     }
     let is_end = |limit: &AtLeastAtMost| limit.at_least.or(limit.at_most).is_some();
     limits.retain(|name, limit| !goal.limit.contains_key(name) && is_end(limit));

@@ -100,7 +100,7 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     );
     assert_message(
         &with("name", "source = \"\" #"),
-        "x.toml:3: source: column 1: this key is there a second time",
+        "x.toml:3: source: column 1: this key is there a second time; leave one of them out",
     );
     assert_message("format = 1\nmaterial = 2", "x.toml:1: the key `name` is missing (what it is called)");
 }

@@ -392,8 +392,7 @@ fn what_a_decoder_gives_up_on_is_told_in_plain_words() {
     for (file, reasons) in [
         (half(png.clone()), ["it ends too soon", "PNG data are damaged"]),
         (spoilt(png, middle), ["PNG data are damaged", "data are damaged"]),
-        (half(exr.clone()), ["it ends too soon", "OpenEXR data are damaged"]),
-        (spoilt(exr, 8), ["OpenEXR data are damaged", "is not read"]),
+        (half(exr), ["it ends too soon", "OpenEXR data are damaged"]),
         (half(hdr), ["it ends too soon", "data are damaged"]),
         (jpeg[..100].to_vec(), ["JPEG data are damaged", "it ends too soon"]),
     ] {

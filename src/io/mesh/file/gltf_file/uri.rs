@@ -27,7 +27,9 @@ pub(super) fn read(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
     // Some programs write names as they are, though they hold a percent sign; some add a query for a server.
     let bare = uri.split(['?', '#']).next().unwrap_or_default();
     let paths = [name.clone(), uri.into(), decoded(bare)];
-    let paths: Vec<PathBuf> = paths.iter().filter_map(|name| within(folder?, name)).collect();
+    // Each of them must lie within the folder: a percent sign hides no way out.
+    let paths: Option<Vec<PathBuf>> = paths.iter().map(|name| within(folder?, name)).collect();
+    let paths = paths.unwrap_or_default();
     let Some(path) = paths.iter().find(|path| path.exists()).or(paths.first()) else {
         return Err(format!(
             "`{name:.80}` is not a file beside this one or below; put it there, or embed it"

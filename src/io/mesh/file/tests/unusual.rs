@@ -98,7 +98,7 @@ fn what_a_ply_holds_beside_its_rows_is_left_out_with_a_warning() {
 #[test]
 fn a_second_stl_behind_a_first_is_left_out_with_a_warning() {
     let stl = write_stl(&body(16), 1.0, None).unwrap();
-    let both = open([stl.as_slice(), &stl].concat());
+    let both = parse([stl.as_slice(), &stl].concat(), "stone.stl", None).unwrap();
     assert_eq!(both.surface.triangles.len(), open(stl.clone()).surface.triangles.len());
     assert!(
         both.warnings[0].contains(&format!("{} bytes behind them are left out", stl.len())),
