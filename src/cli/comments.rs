@@ -1,7 +1,24 @@
-//! Keeps the comments of a cut file from being lost where a command writes over the file that it reads.
+//! Keeps what a file holds beside its design from being lost where a command writes over the file that it reads.
 
+use crate::io::design_file::DesignFormat;
 use crate::io::{Failure, has_comments};
 use std::path::Path;
+
+/// Refuses to write over a mesh that is read, whose triangles the new file would lack.
+///
+/// # Errors
+/// Fails with [`Failure::Usage`] where triangles would be lost.
+pub fn keep_mesh(input: &Path, output: &Path) -> Result<(), Failure> {
+    use DesignFormat::{Asc, Gcs, Gem, Toml};
+    let is_design = matches!(DesignFormat::of_name(output), Some(Toml | Asc | Gem | Gcs));
+    if is_design || !is_same(input, output) {
+        return Ok(());
+    }
+    let path = output.display();
+    Err(Failure::Usage(format!(
+        "{path}: this is the mesh that is read, and of its triangles only the facets would be left; give another name"
+    )))
+}
 
 /// Refuses to write over the file that is read where that has comments, which the new file would lack; `remedy` ends the
 /// message.

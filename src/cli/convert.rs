@@ -50,6 +50,7 @@ impl Convert {
                 endings.join(", ")
             ))
         })?;
+        comments::keep_mesh(&self.input, &self.output)?;
         if !self.drop_comments {
             comments::keep(&self.input, &self.output, "give another name, or --drop-comments")?;
         }
@@ -88,7 +89,7 @@ impl Convert {
 
 /// Returns the stone with its tiers at the distances that follow from their meets.
 fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
-    let LoadedSpecimen { path, made, errors, bodies } = specimen;
+    let LoadedSpecimen { path, made, errors, bodies, remarks } = specimen;
     let Some(meets) = KnownMeets::of(&made) else {
         let why = made.why_not_convex().unwrap_or_default();
         return Err(Failure::Input(format!(
@@ -100,7 +101,7 @@ fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
     let design = made.design.clone();
     let made = made.remade(Design { cut, ..design });
     match made {
-        Ok(made) => Ok(LoadedSpecimen { path, made, errors, bodies }),
+        Ok(made) => Ok(LoadedSpecimen { path, made, errors, bodies, remarks }),
         Err(error) => Err(Failure::Input(format!("{path}: with its meets: {error}"))),
     }
 }

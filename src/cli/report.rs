@@ -71,7 +71,8 @@ impl ReportArguments {
         }
         let reported: Vec<&PathBuf> = specimens.iter().map(|(file, _)| *file).collect();
         let (command, date) = (self.command(&reported), self.date.clone());
-        let origin = ReportOrigin { command, picture_side: self.pixels, date };
+        let remarks = specimens.iter().flat_map(|(_, specimen)| specimen.remarks.clone()).collect();
+        let origin = ReportOrigin { command, picture_side: self.pixels, date, remarks };
         let report = {
             let progress = WorkProgress::new("report");
             report(&viewings, &origin, &mut renderer, &progress.watch(), &|event| progress.report(event))?

@@ -29,7 +29,7 @@ pub struct SheetArguments {
     #[arg(long)]
     left_handed: bool,
     /// Print the content of the sheet as JSON instead: one object, or for several files one object a line
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["out", "format"])]
     json: bool,
     #[command(flatten)]
     specimen: SpecimenOptions,

@@ -26,6 +26,8 @@ pub struct LoadedSpecimen {
     pub errors: Vec<FacetError>,
     /// The first 256 bodies of a mesh that has several; empty for any other design.
     pub bodies: Vec<MeshBody>,
+    /// The notes and warnings on how the file was read.
+    pub remarks: Vec<String>,
 }
 
 impl Deref for LoadedSpecimen {
@@ -43,8 +45,8 @@ impl LoadedSpecimen {
         let read = BuiltDesign::load(file, mesh)?;
         read.remarks.iter().for_each(|remark| say(remark));
         note_readings(&read.other_readings());
-        let BuiltDesign { path, made, errors, bodies, .. } = read;
-        Ok(Self { path, made, errors, bodies })
+        let BuiltDesign { path, made, errors, bodies, remarks, .. } = read;
+        Ok(Self { path, made, errors, bodies, remarks })
     }
 
     /// Returns the standard errors of the facet of a name, where the stone was found in a scan.
@@ -54,7 +56,7 @@ impl LoadedSpecimen {
 
     /// Returns the same stone with another material (a name or an index) and size, where one of them is `Some`.
     pub fn made_of(self, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
-        let Self { path, made, errors, bodies } = self;
+        let Self { path, made, errors, bodies, remarks } = self;
         let mut design = made.design.clone();
         let mut of = made.material.clone();
         if let Some(text) = material {
@@ -65,7 +67,7 @@ impl LoadedSpecimen {
             design.diameter_mm = diameter.map_err(|e| Failure::Input(format!("{path}: size: {e}")))?;
         }
         let made = made.remade(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
-        Ok(Self { path, made, errors, bodies })
+        Ok(Self { path, made, errors, bodies, remarks })
     }
 
     /// Returns the stone with its facets. `what` begins the message where there is none: what the command does of which

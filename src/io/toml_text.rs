@@ -201,7 +201,8 @@ fn syntax(text: &str, error: &Error) -> Fault {
     let line = text.as_bytes()[..start].rsplit(|byte| *byte == b'\n').next().unwrap_or_default();
     let column = 1 + String::from_utf8_lossy(line).chars().count();
     let whole = text[start - line.len()..].lines().next().unwrap_or_default();
-    let key = whole.split_once('=').map_or(String::new(), |(key, _)| format!("{}: ", key.trim()));
+    let key = whole.split_once('=').map(|(key, _)| key.trim()).filter(|key| !key.is_empty());
+    let key = key.map_or(String::new(), |key| format!("{key}: "));
     let said = error.message();
     let known = SYNTAX.iter().find(|(start, _)| said.starts_with(start));
     let problem = format!("{key}column {column}: {}{}", known.map_or(said, |(_, words)| words), hint(whole));

@@ -61,6 +61,8 @@ pub struct ReportOrigin {
     pub picture_side: u32,
     /// The date, in whatever words; a report without one is the same every day.
     pub date: Option<String>,
+    /// The notes and warnings on how the files of the stones were read, as `warning: scan.stl: ...`.
+    pub remarks: Vec<String>,
 }
 
 /// Refuses a report on so many stones.
@@ -121,6 +123,7 @@ pub fn write(path: &Path, format: ReportFormat, report: &Report, paper: PaperSiz
 fn provenance(fingerprints: Vec<[String; 2]>, origin: &ReportOrigin) -> Vec<[String; 2]> {
     let line = |label: &str, value: &str| [label.to_owned(), value.to_owned()];
     let mut lines = fingerprints;
+    lines.extend(origin.remarks.iter().map(|remark| line("as read", remark)));
     lines.push(line("program", concat!("Brillianteer ", env!("CARGO_PKG_VERSION"))));
     lines.push(line("made again by", &format!("{} -o FILE", origin.command)));
     lines.extend(origin.date.iter().map(|date| line("date", date)));

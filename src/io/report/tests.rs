@@ -29,7 +29,12 @@ fn viewing<'a>(specimen: &'a Specimen, file: &'a str) -> Viewing<'a> {
 }
 
 fn origin() -> ReportOrigin {
-    ReportOrigin { command: "brillianteer report <it>".to_owned(), picture_side: 24, date: None }
+    ReportOrigin {
+        command: "brillianteer report <it>".to_owned(),
+        picture_side: 24,
+        date: None,
+        remarks: vec![],
+    }
 }
 
 fn reported(viewings: &[Viewing]) -> Report {
@@ -67,6 +72,16 @@ fn a_page_holds_all_that_it_shows_and_a_report_is_the_same_every_time() {
     let pdf = bytes("a.pdf", &found);
     assert!(pdf.starts_with(b"%PDF-1.7") && pdf == bytes("b.PDF", &reported(&viewings)));
     assert!(bytes("a.html", &found) == html.into_bytes());
+}
+
+#[test]
+fn a_report_says_how_the_file_was_read() {
+    let cube = specimen(include_str!("../../../tests/fixtures/cube.toml"));
+    let origin =
+        ReportOrigin { remarks: vec!["warning: cube.stl: 5 of the facets bend".to_owned()], ..origin() };
+    let viewings = [viewing(&cube, "cube.stl")];
+    let found = report(&viewings, &origin, &mut Renderer::new(Card::None), &unwatched, &|_| Ok(())).unwrap();
+    assert!(report_html(&found).contains("warning: cube.stl: 5 of the facets bend"));
 }
 
 #[test]

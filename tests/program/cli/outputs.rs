@@ -58,6 +58,17 @@ fn comments_of_the_file_that_is_read_are_not_lost_unasked() {
     assert_eq!(desk.read("a.toml"), desk.read("b.toml"));
 }
 
+#[test]
+fn a_mesh_is_not_written_over_by_its_own_facets() {
+    let desk = Desk::new();
+    desk.done("convert tolkowsky a.stl");
+    let before = std::fs::read(desk.at("a.stl")).unwrap();
+    for line in ["convert a.stl a.stl", "convert a.stl ./a.stl"] {
+        assert!(desk.refused(line, 2).contains("this is the mesh that is read"), "{line}");
+        assert_eq!(std::fs::read(desk.at("a.stl")).unwrap(), before);
+    }
+}
+
 /// Commands that write files of more than 512 bytes, and the folder or file that they write.
 #[cfg(unix)]
 const WRITERS: [&str; 8] = [

@@ -196,6 +196,9 @@ fn text_rows<'h>(
     let change = |text: &[u8], out: &mut Vec<u8>| {
         let (numbers, rows, broken) = &mut *state.borrow_mut();
         let number = above + line.get();
+        if rows.are_over() {
+            return rows.leave_out(text);
+        }
         let tidied = tidy(&String::from_utf8_lossy(text), numbers, number);
         let checked = tidied.and_then(|text| {
             let words: Vec<&str> = text.split_whitespace().collect();

@@ -33,12 +33,21 @@ impl<'h> PlyRows<'h> {
         self.elements.get(self.element).copied()
     }
 
+    /// Returns whether all announced rows have been read.
+    pub fn are_over(&mut self) -> bool {
+        self.current().is_none()
+    }
+
+    /// Leaves out a line behind the last row. Blank ones and the zeros or the mark with which some systems end texts do not
+    /// count.
+    pub fn leave_out(&mut self, line: &[u8]) {
+        let is_blank = |byte: &u8| byte.is_ascii_whitespace() || byte.is_ascii_control();
+        self.behind += usize::from(!line.iter().all(is_blank));
+    }
+
     /// Checks the next row, which is not blank, and returns the words of it that are announced.
     pub fn check<'w>(&mut self, words: &'w [&'w str], line: usize) -> Result<&'w [&'w str], Fault> {
-        let Some(element) = self.current() else {
-            self.behind += 1;
-            return Ok(words);
-        };
+        let Some(element) = self.current() else { return Ok(words) };
         self.row += 1;
         let (mut rest, mut wanted) = (words, 0);
         let in_row = |problem: String| {

@@ -93,6 +93,11 @@ fn what_a_ply_holds_beside_its_rows_is_left_out_with_a_warning() {
             "{told}\nexpected {warning}"
         );
     }
+    // The mark of the end and the zeros of older systems are not lines.
+    for end in ["\u{1a}", "\0\0\0\0", "\n \n\u{1a}\n"] {
+        let file = open((ascii() + end).into_bytes());
+        assert_eq!(file.warnings, [""; 0], "{end:?}");
+    }
 }
 
 #[test]
