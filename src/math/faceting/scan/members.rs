@@ -3,7 +3,8 @@
 //! A corner is judged by its place along the facet, not by its distance from it, so that its noise is not selected: the mean
 //! distance of the corners that noise moves beyond both planes of an edge is not 0. Corners so near to an edge that noise
 //! hides on which side they belong are left out. Where the scan has corners on the edges, as a divided model has, they count
-//! for both facets.
+//! for both facets. Where facets lean little from each other, the errors of their planes move the edge between them far: what lies
+//! within these errors of it counts for neither, so that no plane follows corners of its neighbour.
 
 use super::patches::ScanCorners;
 use super::points::{PlaneEstimate, PointSums};
@@ -17,6 +18,12 @@ const BORDER: f64 = 4.0;
 
 /// A corner farther from its plane than this many standard deviations does not lie on the facet.
 pub(super) const OUTLIER: f64 = 6.0;
+
+/// What lies within this many standard errors of an edge may belong to either facet.
+const UNSURE: f64 = 3.0;
+
+/// The fewest corners that are left to a facet where those near its edges are left out; a facet with fewer keeps them all.
+const LEAST_LEFT: usize = 16;
 
 /// Corners lie on the edges of the stone where their number near the edges is this many times what an even spread gives.
 const CROWDED: f64 = 2.0;
@@ -39,6 +46,11 @@ struct Outlined {
 }
 
 impl Outlined {
+    /// Returns whether a point lies on the facet's plane except for noise.
+    fn is_near(&self, point: DVec3) -> bool {
+        self.plane.distance(point).abs() <= OUTLIER * self.noise
+    }
+
     /// Returns how far a point lies beyond the outline, along the plane; negative inside.
     fn beyond(&self, point: DVec3) -> f64 {
         let foot = point - self.plane.distance(point) * self.plane.normal;
@@ -65,29 +77,10 @@ impl Members {
         let planes: Vec<Plane> = solid.planes().collect();
         let lies: Vec<(usize, f64)> = corners.at.par_iter().map(|&v| outermost(&planes, v)).collect();
         let are_shared = has_corners_on_edges(corners, solid, &facets, &lies);
-        let is_near = |facet: &Outlined, v: DVec3| facet.plane.distance(v).abs() <= OUTLIER * facet.noise;
         let of = if are_shared {
-            let middle = |t: &[u32; 3]| t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
-            let on: Vec<usize> =
-                corners.triangles.par_iter().map(|t| outermost(&planes, middle(t)).0).collect();
-            let mut of = vec![vec![]; facets.len()];
-            for (&f, t) in on.iter().zip(corners.triangles) {
-                of[f].extend(t.iter().filter(|&&v| is_near(&facets[f], corners.at[v as usize])));
-            }
-            of.par_iter_mut().for_each(|of: &mut Vec<u32>| {
-                of.sort_unstable();
-                of.dedup();
-            });
-            of
+            of_triangles(corners, &facets, solid)
         } else {
-            let inside = |(v, &(f, _)): (usize, &(usize, f64))| {
-                let (facet, at) = (&facets[f], corners.at[v]);
-                (is_near(facet, at) && facet.beyond(at) <= -BORDER * facet.noise).then_some((f, v as u32))
-            };
-            let found: Vec<(usize, u32)> = lies.par_iter().enumerate().filter_map(inside).collect();
-            let mut of = vec![vec![]; facets.len()];
-            found.into_iter().for_each(|(f, v)| of[f].push(v));
-            of
+            within(corners, &facets, solid, &lies)
         };
         let mut explained: Vec<bool> =
             lies.iter().map(|&(f, d)| d.abs() <= OUTLIER * facets[f].noise).collect();
@@ -101,13 +94,95 @@ impl Members {
 
     /// Returns the sums over the corners of each facet.
     pub fn sums(&self, corners: &ScanCorners) -> Vec<PointSums> {
-        let sums = |members: &Vec<u32>| {
-            let mut sums =
-                PointSums::about(members.first().map_or(corners.inside, |&v| corners.at[v as usize]));
-            members.iter().for_each(|&v| sums.add(corners.at[v as usize]));
-            sums
-        };
-        self.of.par_iter().map(sums).collect()
+        self.of.par_iter().map(|of| sums(corners, of)).collect()
+    }
+}
+
+fn sums(corners: &ScanCorners, of: &[u32]) -> PointSums {
+    let mut sums = PointSums::about(of.first().map_or(corners.inside, |&v| corners.at[v as usize]));
+    of.iter().for_each(|&v| sums.add(corners.at[v as usize]));
+    sums
+}
+
+/// Returns the corners of the triangles that lie on each facet, where triangles lie on one facet each.
+fn of_triangles(corners: &ScanCorners, facets: &[Outlined], solid: &Polytope) -> Vec<Vec<u32>> {
+    let planes: Vec<Plane> = solid.planes().collect();
+    let middle = |t: &[u32; 3]| t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
+    let middles: Vec<DVec3> = corners.triangles.par_iter().map(middle).collect();
+    let on: Vec<usize> = middles.par_iter().map(|&middle| outermost(&planes, middle).0).collect();
+    let gathered = |is_sure: &[bool]| {
+        let mut of = vec![vec![]; facets.len()];
+        for ((&f, t), _) in on.iter().zip(corners.triangles).zip(is_sure).filter(|(_, sure)| **sure) {
+            of[f].extend(t.iter().filter(|&&v| facets[f].is_near(corners.at[v as usize])));
+        }
+        of.par_iter_mut().for_each(|of: &mut Vec<u32>| {
+            of.sort_unstable();
+            of.dedup();
+        });
+        of
+    };
+    let all = gathered(&vec![true; on.len()]);
+    let edges = UnsureEdges::of(corners, solid, facets, &all);
+    let is_sure: Vec<bool> =
+        on.par_iter().zip(&middles).map(|(&f, &middle)| edges.is_sure(middle, f)).collect();
+    left(all, gathered(&is_sure))
+}
+
+/// Returns the corners within each facet. `lies` holds the facet that each corner is farthest outside of.
+fn within(
+    corners: &ScanCorners,
+    facets: &[Outlined],
+    solid: &Polytope,
+    lies: &[(usize, f64)],
+) -> Vec<Vec<u32>> {
+    let mut all = vec![vec![]; facets.len()];
+    for (v, &(f, _)) in (0..).zip(lies) {
+        let (facet, at) = (&facets[f], corners.at[v as usize]);
+        if facet.is_near(at) && facet.beyond(at) <= -BORDER * facet.noise {
+            all[f].push(v);
+        }
+    }
+    let edges = UnsureEdges::of(corners, solid, facets, &all);
+    let sure = |(f, of): (usize, &Vec<u32>)| {
+        of.iter().copied().filter(|&v| edges.is_sure(corners.at[v as usize], f)).collect()
+    };
+    let sure = all.par_iter().enumerate().map(sure).collect();
+    left(all, sure)
+}
+
+/// Returns the corners that certainly lie on each facet, and all for facets to which few would be left.
+fn left(all: Vec<Vec<u32>>, sure: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+    all.into_iter().zip(sure).map(|(all, sure)| if sure.len() < LEAST_LEFT { all } else { sure }).collect()
+}
+
+/// The edges of a solid whose places are known as well as the planes beside them.
+struct UnsureEdges<'a> {
+    solid: &'a Polytope,
+    facets: &'a [Outlined],
+    fits: Vec<Option<PlaneEstimate>>,
+}
+
+impl<'a> UnsureEdges<'a> {
+    /// Takes the standard errors of the planes from the corners `of` the facets.
+    fn of(corners: &ScanCorners, solid: &'a Polytope, facets: &'a [Outlined], of: &[Vec<u32>]) -> Self {
+        let fits = of.par_iter().map(|of| sums(corners, of).fit(corners.inside)).collect();
+        Self { solid, facets, fits }
+    }
+
+    /// Returns the variance of a facet's plane at a point; 0 where it is not known.
+    fn variance(&self, facet: usize, point: DVec3) -> f64 {
+        self.fits[facet].as_ref().map_or(0.0, |fit| self.facets[facet].noise.powi(2) * fit.leverage(point))
+    }
+
+    /// Returns whether a point that lies on a facet lies certainly not on a neighbour. The noise of the point itself moves it off
+    /// both planes alike.
+    fn is_sure(&self, point: DVec3, facet: usize) -> bool {
+        let own = &self.solid.facets()[facet];
+        let (distance, variance) = (own.plane.distance(point), self.variance(facet, point));
+        own.neighbours.iter().map(|&n| n as usize).all(|n| {
+            let apart = distance - self.solid.facets()[n].plane.distance(point);
+            apart > 0.0 && apart * apart >= UNSURE * UNSURE * (variance + self.variance(n, point))
+        })
     }
 }
 

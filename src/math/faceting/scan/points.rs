@@ -91,6 +91,13 @@ impl PlaneEstimate {
         self.count.saturating_sub(3)
     }
 
+    /// Returns the variance of the plane's distance at a place, in variances of one point's noise.
+    pub fn leverage(&self, at: DVec3) -> f64 {
+        let from = at - self.middle;
+        let along = |k: usize| from.dot(self.axes[k]).powi(2) / self.moments[k];
+        1.0 / self.count as f64 + along(0) + along(1)
+    }
+
     /// Returns the mean square of the points' noise, estimated from their distances; 0 for three points.
     pub fn variance(&self) -> f64 {
         match self.freedom() {
