@@ -38,6 +38,9 @@ const EXACT: f64 = 2e-6;
 /// The weight of differences in slope between girdle facets, which are thin, so that their slope is mostly noise.
 const THIN: f64 = 0.25;
 
+/// Normals that differ by less are the same except for rounding.
+const ROUNDED: f64 = 1e-12;
+
 /// The most facets of a stone that is evened, since all of them are compared with all.
 const MOST_FACETS: usize = 1_000;
 
@@ -205,9 +208,10 @@ impl FacetParts {
         let found = Found { planes: &self.planes, errors, size };
         let square = |even: Even| {
             let square = squared(&even, &self.middles);
-            let turned = even.planes.iter().zip(&square.planes).filter(|(a, b)| a.normal != b.normal).count();
             // Each orbit of facets loses its slope.
-            (averaged(&square, images).unwrap_or(even), turned / images.maps.len())
+            let is_turned = |f: usize| (even.planes[f].normal - square.planes[f].normal).length() > ROUNDED;
+            let orbits = images.orbits(is_turned);
+            (averaged(&square, images).unwrap_or(even), orbits)
         };
         let upright = found.likely(start, images, is_fixed, square);
         upright.or_else(|| found.likely(start, images, is_fixed, |even| (even, 0)))
@@ -332,6 +336,14 @@ impl Images {
             Some(Map { mirror, turn, images: list.permutation(even.mapped(mirror, turn))? })
         });
         Some(Self { maps: maps.collect::<Option<_>>()? })
+    }
+
+    /// Returns the number of different facets among those for whose places a test holds, where images of one another count as one.
+    fn orbits(&self, test: impl Fn(usize) -> bool) -> usize {
+        let planes = self.maps.first().map_or(0, |map| map.images.len());
+        let own = |plane: usize| self.maps.iter().filter(|map| map.images[plane] == plane).count();
+        let sum: usize = (0..planes).filter(|&plane| test(plane)).map(own).sum();
+        (sum as f64 / self.maps.len() as f64).round() as usize
     }
 
     /// Returns the number of equations that the symmetry sets for the planes' numbers, three for each plane, in a fixed frame.

@@ -14,6 +14,12 @@ const LEVEL: f64 = 3.09;
 /// The numbers of a frame: rotations about x, y and z, and shifts along x and y.
 const NUMBERS: usize = 5;
 
+/// The factor by which χ² may be larger because the standard errors are not known exactly: they may be 5 % too small.
+const KNOWN: f64 = 1.1;
+
+/// The most that one facet may add to χ²: six standard errors. A single facet that is off further is no noise.
+const MOST_OF_ONE: f64 = 36.0;
+
 /// The number of steps toward the frame with the least χ². It is nearly quadratic, so that one almost suffices.
 const STEPS: usize = 3;
 
@@ -33,12 +39,17 @@ pub(super) struct Found<'a> {
 impl Found<'_> {
     /// Returns χ² of an even stone.
     fn squares(&self, even: &Even) -> f64 {
+        self.each(even).sum()
+    }
+
+    /// Returns what each plane adds to χ² of an even stone.
+    fn each(&self, even: &Even) -> impl Iterator<Item = f64> {
         let back = |plane: &Plane| {
             let normal = even.turn.inverse() * plane.normal;
             Plane::new(normal, plane.offset - plane.normal.dot(even.shift))
         };
         let each = self.planes.iter().zip(self.errors).zip(&even.planes);
-        each.map(|((found, error), plane)| error.squares(found, &back(plane))).sum()
+        each.map(move |((found, error), plane)| error.squares(found, &back(plane)))
     }
 
     /// Returns the even stone in the frame with the least χ², where it is as likely as the found one. `start` holds the found
@@ -63,11 +74,23 @@ impl Found<'_> {
         }
         let (even, fewer) = at(&frame)?;
         let free = images.constraints() + fewer;
-        let free = if is_fixed { free } else { free.saturating_sub(NUMBERS).max(1) } as f64;
+        let frame = if is_fixed { 0 } else { numbers(start, fewer > 0) };
+        let free = free.saturating_sub(frame).max(1) as f64;
         // The quantile of χ² (E. B. Wilson and M. M. Hilferty, 1931).
         let part = 2.0 / (9.0 * free);
         let most = free * (1.0 - part + LEVEL * part.sqrt()).powi(3);
-        (self.squares(&even) <= most).then_some(even)
+        let is_noise = self.squares(&even) <= KNOWN * most && self.each(&even).all(|one| one <= MOST_OF_ONE);
+        is_noise.then_some(even)
+    }
+}
+
+/// Returns the number of a frame's numbers that an even stone's symmetry fixes. A mirror alone may be tilted and shifted along itself,
+/// unless upright facets fix the tilt; turns without a mirror have no first azimuth.
+fn numbers(even: &Even, has_upright: bool) -> usize {
+    match (even.turns, even.mirror) {
+        (1, _) => NUMBERS - 2 + usize::from(has_upright),
+        (_, None) => NUMBERS - 1,
+        _ => NUMBERS,
     }
 }
 
