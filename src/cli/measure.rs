@@ -220,13 +220,11 @@ struct DeviationErrors {
 
 impl DeviationErrors {
     fn of(specimen: &LoadedSpecimen, class: &ClassDeviations) -> Self {
-        // A facet deviates from the median of eight, which adds π/16 of a variance to the facet's own.
-        let median = (1.0 + std::f64::consts::PI / 16.0).sqrt();
-        let azimuth = specimen.error(&class.worst_azimuth.facet).and_then(|error| error.azimuth_deg);
-        let slope = specimen.error(&class.worst_slope.facet).map(|error| error.slope_deg);
+        let azimuth = |facet: &str| specimen.error(facet)?.azimuth_deg;
+        let slope = |facet: &str| Some(specimen.error(facet)?.slope_deg);
         Self {
-            azimuth_deg: azimuth.map(|error| median * error),
-            slope_deg: slope.map(|error| median * error),
+            azimuth_deg: class.worst_azimuth.standard_error(azimuth),
+            slope_deg: class.worst_slope.standard_error(slope),
         }
     }
 }

@@ -27,6 +27,24 @@ pub struct FacetDeviation {
     pub facet: String,
     /// Its value less the median of its class, degrees.
     pub by_deg: f64,
+    /// The facets whose mean value is the median: one, or two of an even number.
+    #[serde(skip)]
+    pub median_of: Vec<String>,
+}
+
+impl FacetDeviation {
+    /// Returns the standard error of the deviation from those of the facets' own values; `None` where one is not known.
+    ///
+    /// The errors of facets are independent of one another, and the median moves with the facets in the middle alone. This holds where
+    /// facets deviate by several errors, so that noise does not change their order. Of facets that deviate by noise alone, the one
+    /// that deviates most is the one that noise has moved most: its deviation is off by up to twice as much. Derived.
+    pub fn standard_error(&self, of: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+        let share = 1.0 / self.median_of.len().max(1) as f64;
+        let is_middle = self.median_of.contains(&self.facet);
+        let own = of(&self.facet)? * if is_middle { 1.0 - share } else { 1.0 };
+        let others = self.median_of.iter().filter(|name| **name != self.facet);
+        others.map(|name| of(name)).try_fold(own, |sum, error| Some(sum.hypot(share * error?)))
+    }
 }
 
 /// The deviations of one class of facets.
@@ -233,17 +251,27 @@ fn deviations(
         let (least, most) = span(values.iter().copied());
         most - least
     };
-    let worst = |values: &[f64]| {
-        let found = facets.iter().zip(values).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let (facet, by_deg) = found.map_or((String::new(), 0.0), |(f, v)| (f.name.clone(), *v));
-        FacetDeviation { facet, by_deg }
+    let sides: Vec<usize> = placed.iter().map(|(_, within)| side(*within)).collect();
+    let worst = |values: &[f64], sides: &[usize]| {
+        let worst = (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()));
+        let Some(worst) = worst else {
+            return FacetDeviation { facet: String::new(), by_deg: 0.0, median_of: vec![] };
+        };
+        let mut alike: Vec<usize> = (0..values.len()).filter(|&k| sides[k] == sides[worst]).collect();
+        alike.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+        let middle = &alike[(alike.len() - 1) / 2..=alike.len() / 2];
+        FacetDeviation {
+            facet: facets[worst].name.clone(),
+            by_deg: values[worst],
+            median_of: middle.iter().map(|&k| facets[k].name.clone()).collect(),
+        }
     };
     Ok(ClassDeviations {
         class,
         azimuth_spread_deg: spread(&turned),
-        worst_azimuth: worst(&turned),
+        worst_azimuth: worst(&turned, &sides),
         slope_spread_deg: spread(&leant),
-        worst_slope: worst(&leant),
+        worst_slope: worst(&leant, &vec![0; leant.len()]),
     })
 }
 
@@ -262,6 +290,7 @@ pub(super) fn median(mut values: Vec<f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::cut::TOLKOWSKY;
+    use crate::math::random_bits::{GAMMA, mixed, unit};
 
     fn changed(name: &str, slope_deg: f64, azimuth_deg: f64, turn_deg: f64) -> Vec<ClassDeviations> {
         let turned = |azimuth: f64| azimuth + turn_deg.to_radians();
@@ -307,6 +336,70 @@ mod tests {
                 assert!((leant[at].worst_slope.by_deg - sign * by).abs() < 1e-9, "{leant:?}");
             }
         }
+    }
+
+    /// Returns the deviations of a brilliant whose facets are off by flaws, and by noise besides, of these standard deviations.
+    fn noisy(flaw_deg: f64, noise_deg: f64, flaws: u64, seed: u64) -> Vec<ClassDeviations> {
+        let normal = |number: u64| {
+            let [a, b] = [2 * number, 2 * number + 1].map(|n| unit(mixed(n.wrapping_mul(GAMMA))));
+            (-2.0 * (1.0 - a).ln()).sqrt() * (2.0 * PI * b).cos()
+        };
+        let facets = (0..).zip(TOLKOWSKY.facets().unwrap()).map(|(k, (name, plane))| {
+            let across = plane.normal.truncate();
+            let off = |part: u64| {
+                let place = 1000 * (2 * k + part);
+                flaw_deg * normal(place + flaws) + noise_deg * normal(1_000_000 + place + seed)
+            };
+            let [lean, turn] = [off(0), off(1)].map(f64::to_radians);
+            let slope = across.length().atan2(plane.normal.z);
+            match plane.normal.z.abs() {
+                0.1..0.99 => (name, Plane::from_slope(slope + lean, across.to_angle() + turn, plane.offset)),
+                _ => (name, plane),
+            }
+        });
+        facet_deviations(&Stone::new(&facets.collect::<Vec<_>>()).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn errors_of_deviations_cover_what_noise_adds_to_the_flaws_of_facets() {
+        const NOISE_DEG: f64 = 0.002;
+        let (mut within, mut squares, mut count) = (0, 0.0, 0);
+        for seed in 0..120 {
+            let [truth, found] = [0.0, NOISE_DEG].map(|noise| noisy(0.1, noise, seed % 12, seed));
+            for (truth, found) in truth.iter().zip(&found) {
+                let pairs =
+                    [(&truth.worst_azimuth, &found.worst_azimuth), (&truth.worst_slope, &found.worst_slope)];
+                for (truth, found) in pairs.into_iter().filter(|(truth, found)| truth.facet == found.facet) {
+                    let error = found.standard_error(|_| Some(NOISE_DEG)).unwrap();
+                    let off = (found.by_deg - truth.by_deg) / error;
+                    within += usize::from(off.abs() < 1.96);
+                    squares += off * off;
+                    count += 1;
+                }
+            }
+        }
+        let (cover, scale) =
+            (f64::from(within as u32) / f64::from(count), (squares / f64::from(count)).sqrt());
+        assert!(count > 1000 && (cover - 0.95).abs() < 0.02, "{cover} of {count}");
+        assert!((scale - 1.0).abs() < 0.07, "{scale}");
+    }
+
+    #[test]
+    fn a_deviation_from_the_median_has_the_errors_of_the_facets_in_the_middle() {
+        let deviation = |of: &[&str]| FacetDeviation {
+            facet: "a".to_owned(),
+            by_deg: 1.0,
+            median_of: of.iter().map(|&name| name.to_owned()).collect(),
+        };
+        let error = |name: &str| match name {
+            "a" => Some(3.0),
+            "b" => Some(4.0),
+            _ => None,
+        };
+        assert_eq!(deviation(&["b"]).standard_error(error), Some(5.0));
+        assert_eq!(deviation(&["a", "b"]).standard_error(error), Some(2.5));
+        assert_eq!(deviation(&["a"]).standard_error(error), Some(0.0));
+        assert_eq!(deviation(&["b", "c"]).standard_error(error), None);
     }
 
     #[test]
