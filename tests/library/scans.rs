@@ -3,8 +3,9 @@
 use crate::common::scans::{Corners, Scan, flawed};
 use brillianteer::cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
 use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+use brillianteer::io::{cut_file, library};
 use brillianteer::math::faceting::{
-    Face, Faceted, NotFaceted, PlaneError, SurfaceKind, faceted_hull, facets,
+    Face, Faceted, NotFaceted, PlaneError, SurfaceKind, Unfaceted, faceted_hull, facets,
 };
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::facet_deviations;
@@ -244,6 +245,43 @@ fn deviations_of_facets_are_those_of_the_stone_within_their_errors() {
 
 fn named(planes: &[Plane]) -> Vec<(String, Plane)> {
     planes.iter().enumerate().map(|(k, plane)| (format!("facet {k}"), *plane)).collect()
+}
+
+/// Returns the planes of a cut that comes with the program, with the facets of its girdle.
+fn cut(name: &str) -> Vec<Plane> {
+    let design = cut_file::parse(library::cut(name).unwrap(), name).unwrap();
+    design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect()
+}
+
+#[test]
+fn scans_without_corners_on_edges_are_read_with_true_facets_or_refused() {
+    let stones = [("brilliant of 73", even()), ("princess", cut("princess")), ("pear", cut("pear"))];
+    let (mut read_as, mut refused) = (0, 0);
+    for (name, stone) in &stones {
+        for (corners, noise_um) in [(2_500, 0.1), (2_500, 1.0), (10_000, 0.3)] {
+            let scan = Scan { corners: Corners::Radial(corners), ..Scan::meshed(0, noise_um, 1) };
+            let case = format!("{name}, {corners} corners, {noise_um} um");
+            let surface = scan.of(stone).mend().unwrap().surface;
+            match facets(surface) {
+                SurfaceKind::Concave(surface) => {
+                    assert_eq!(Unfaceted::of(&surface), Unfaceted::Noisy, "{case}");
+                    assert_eq!(faceted_hull(surface), Err(NotFaceted::Noisy), "{case}");
+                    refused += 1;
+                }
+                SurfaceKind::Convex(found) => {
+                    let bent = found.faces.iter().filter(|face| face.is_bent).count();
+                    let (count, truth) = (found.faces.len(), stone.len());
+                    assert!(found.faces.iter().all(|face| face.error.is_some()), "{case}: {count} facets");
+                    assert!(
+                        count == truth || count < truth && bent > 0,
+                        "{case}: {count} facets, {bent} bent"
+                    );
+                    read_as += 1;
+                }
+            }
+        }
+    }
+    assert!(read_as > 0 && refused > 0, "{read_as} {refused}");
 }
 
 #[test]

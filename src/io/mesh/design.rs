@@ -11,7 +11,7 @@ use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
 use crate::math::faceting::{
-    Change, Faceted, NotFaceted, SurfaceKind, faceted_hull, facets, hull_facets, is_noisy,
+    Change, Faceted, NotFaceted, SurfaceKind, Unfaceted, faceted_hull, facets, hull_facets,
 };
 use crate::math::mending::{Mended, OpenPiece, SurfaceError};
 use crate::math::{Pose, Surface, Symmetry, TriangleMesh, signed};
@@ -117,8 +117,13 @@ fn unmended(warnings: &[String], error: &SurfaceError) -> Fault {
 /// The note on a mesh that is traced as triangles without a request for that.
 const NOT_CONVEX: &str = "it is not convex; read as a faceted stone it would be the convex stone around it";
 
-/// The note on a scan whose facets are not found.
-const HIDDEN: &str = "its noise hides its facets; a scan with less noise or more corners would show them";
+/// The note on a convex mesh without facets.
+const CURVED: &str = "it is curved: no flat facets, or not as few as a stone may have, make up its shape; if it is a faceted stone, save a \
+                      coarser mesh";
+
+/// The note on a scan in which no facets are found.
+const HIDDEN: &str =
+    "its noise hides any flat facets that it has; a scan with less noise or more corners would show them";
 
 /// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
 fn impossible(error: NotFaceted) -> Fault {
@@ -223,7 +228,11 @@ impl File {
             MeshForm::Found => match facets(surface) {
                 SurfaceKind::Convex(found) => self.planes(&found),
                 SurfaceKind::Concave(surface) => {
-                    let why = if is_noisy(&surface) { HIDDEN } else { NOT_CONVEX };
+                    let why = match Unfaceted::of(&surface) {
+                        Unfaceted::Concave => NOT_CONVEX,
+                        Unfaceted::Curved => CURVED,
+                        Unfaceted::Noisy => HIDDEN,
+                    };
                     self.triangles(surface, Some(why))
                 }
             },
@@ -429,7 +438,8 @@ mod tests {
         let vertices: Vec<DVec3> = (0..4000).map(at).collect();
         let triangles = crate::math::convex_hull(&vertices).unwrap();
         let ball = obj((vertices, triangles));
-        assert!(matches!(open(ball.clone(), MeshForm::Found).unwrap().design.cut, Cut::Mesh(_)));
+        let found = open(ball.clone(), MeshForm::Found).unwrap();
+        assert!(matches!(found.design.cut, Cut::Mesh(_)) && found.notes.iter().any(|note| note == CURVED));
         let error = open(ball, MeshForm::Faceted).unwrap_err().to_string();
         assert!(
             error.contains("cannot be read as a faceted stone") && error.contains("read it as triangles"),

@@ -29,7 +29,7 @@ pub struct Change {
 impl Change {
     /// Compares a closed surface with a solid that contains it, except for noise.
     pub fn of(surface: &Surface, solid: &Polytope) -> Self {
-        let angles = bends(surface);
+        let angles = bends(surface, BENT);
         Self {
             volume: solid.volume() / surface.volume() - 1.0,
             deepest: deepest(surface, solid),
@@ -40,21 +40,21 @@ impl Change {
 }
 
 impl Change {
-    /// Returns the number of a surface's edges that bend inward.
-    pub(super) fn inward_edges(surface: &Surface) -> usize {
-        bends(surface).len()
+    /// Returns the part of a surface's edges that bend inward by more than an angle, radians.
+    pub(super) fn inward_part(surface: &Surface, least: f64) -> f64 {
+        bends(surface, least).len() as f64 / (1.5 * surface.triangles.len() as f64)
     }
 }
 
-/// Returns the angles of the edges that bend inward, in radians.
-fn bends(surface: &Surface) -> Vec<f64> {
+/// Returns the angles of the edges that bend inward by more than an angle, in radians.
+fn bends(surface: &Surface, least: f64) -> Vec<f64> {
     let normal = |t: usize| surface.area_vector(t).normalize_or_zero();
     let sum = |t: usize| surface.corners(t).iter().sum::<DVec3>();
     let edges = Edges::of(surface);
     let bent = edges.pairs().filter_map(|(t, _, n)| {
         let (one, other) = (normal(t), normal(n));
         let angle = one.cross(other).length().atan2(one.dot(other));
-        (angle > BENT && (other - one).dot(sum(n) - sum(t)) < 0.0).then_some(angle)
+        (angle > least && (other - one).dot(sum(n) - sum(t)) < 0.0).then_some(angle)
     });
     bent.collect()
 }

@@ -42,6 +42,11 @@ impl Hull {
         Some(Self(Surface::new(corners, triangles)))
     }
 
+    /// Returns the volume of the hull.
+    pub fn volume(&self) -> f64 {
+        self.0.volume()
+    }
+
     /// Returns the distance by which the hull reaches beyond a plane; negative where the hull stays behind the plane.
     pub fn outside(&self, plane: &Plane) -> f64 {
         self.0.vertices.iter().map(|corner| plane.distance(*corner)).fold(f64::NEG_INFINITY, f64::max)

@@ -9,6 +9,8 @@
 //!    corners are left out, and each triangle is assigned to the facet that it lies on (`settle`);
 //! 4. the hull itself is taken, if the surface is meant to be its hull (`hull`).
 //!
+//! What the last two find in a surface that noise bends is refused where the noise may have made the facets (`noisy`).
+//!
 //! Where the solid differs from the surface, `change` measures the differences. Lengths are in the surface's unit;
 //! tolerances are parts of [`Surface::size`].
 
@@ -32,7 +34,8 @@ pub use change::Change;
 pub use deviation::deviation;
 use glam::DVec3;
 use hull::Hull;
-pub use noisy::{MODELLED, is_noisy};
+pub use noisy::{MODELLED, Unfaceted};
+use noisy::{is_noisy, is_of_noise};
 pub use plane_error::PlaneError;
 use regions::{NOWHERE, Regions};
 use search::{MOST_FACETS, MatchingSolid, SolidSearch};
@@ -90,7 +93,8 @@ pub fn facets(surface: Surface) -> SurfaceKind {
     let search = SolidSearch::of(&moved);
     let exact = search.exact();
     let is_changed = exact.is_none();
-    let Some(solid) = exact.or_else(|| search.meant()) else { return SurfaceKind::Concave(surface) };
+    let solid = exact.or_else(|| search.meant()).filter(|solid| !is_of_noise(&moved, solid));
+    let Some(solid) = solid else { return SurfaceKind::Concave(surface) };
     SurfaceKind::Convex(Box::new(faceted(moved, centre, solid, is_changed)))
 }
 
@@ -126,7 +130,7 @@ pub enum NotFaceted {
     #[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
     Curved,
     /// Noise hides the facets, and those of the hull would be those that noise makes.
-    #[error("its noise hides its facets")]
+    #[error("its noise hides any flat facets that it has")]
     Noisy,
 }
 

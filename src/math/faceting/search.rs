@@ -4,7 +4,6 @@ use super::deviation::deviation;
 use super::deviation::outermost;
 use super::fit::PlaneFit;
 use super::hull::Hull;
-use super::noisy::{MODELLED, is_noisy};
 use super::plane_error::PlaneError;
 use super::regions::{NOWHERE, Regions, is_sliver, regions};
 use super::scan::{ScannedSolid, scanned};
@@ -108,9 +107,7 @@ impl<'a> SolidSearch<'a> {
                 best = next;
             }
         }
-        // Facets of a noisy surface with many corners are those of a scan, or noise makes and hides some.
-        let is_modelled = self.surface.vertices.len() <= MODELLED * best.polytope.facets().len();
-        (is_modelled || !is_noisy(self.surface)).then_some(best)
+        Some(best)
     }
 
     /// Returns the hull, where the surface is meant to be its hull.

@@ -71,6 +71,34 @@ fn a_ball_is_round_and_not_cut_into_facets() {
     assert!(matches!(facets(ball), SurfaceKind::Concave(_)));
 }
 
+/// A ball of about so many corners, or a ball with a dimple.
+fn round(count: u32, dimple: f64) -> Surface {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let at = |k: u32| {
+        let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(count);
+        let (sin, cos) = (golden * f64::from(k)).sin_cos();
+        DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
+    };
+    let ball: Vec<DVec3> = (0..count).map(at).collect();
+    let triangles = crate::math::convex_hull(&ball).unwrap();
+    let reach = |v: &DVec3| *v * (1.0 - dimple * (-8.0 * v.distance_squared(DVec3::X)).exp());
+    Surface::new(ball.iter().map(reach).collect(), triangles)
+}
+
+#[test]
+fn what_has_no_facets_is_curved_or_concave_or_has_noise_that_may_hide_them() {
+    for (dimple, noise, why) in [
+        (0.0, 0.0, Unfaceted::Curved),
+        (0.0, 2e-3, Unfaceted::Noisy),
+        (0.5, 0.0, Unfaceted::Concave),
+        (0.5, 2e-3, Unfaceted::Concave),
+    ] {
+        let surface = shaken(&round(3000, dimple), noise, 7).mend().unwrap().surface;
+        let SurfaceKind::Concave(surface) = facets(surface) else { panic!("{dimple} {noise}: facets") };
+        assert_eq!(Unfaceted::of(&surface), why, "{dimple} {noise}");
+    }
+}
+
 #[test]
 fn groups_that_are_facets_lend_them_their_names() {
     let found = faceted(surface(&stone(6)).mend().unwrap().surface);

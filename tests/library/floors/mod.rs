@@ -40,11 +40,11 @@ const ROOMS: [Room; 8] = [
             "NotFaceted",
             "PlaneError",
             "SurfaceKind",
+            "Unfaceted",
             "deviation",
             "faceted_hull",
             "facets",
             "hull_facets",
-            "is_noisy",
         ],
     },
     Room {

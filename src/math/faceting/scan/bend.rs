@@ -79,8 +79,14 @@ pub(super) fn are_bent(corners: &ScanCorners, fitted: &Fitted, inflation: f64) -
         Some(Bend { fall: fall / variance / mean, outward })
     };
     let bends: Vec<Option<Bend>> = members.of.par_iter().zip(fits).map(bend_of).collect();
-    let mut are_bent = are_off(corners, fitted);
+    let off = off(corners, fitted);
+    let mut are_bent = vec![false; fits.len()];
     for group in groups(polytope) {
+        let are_off = |of: &[usize]| {
+            let [off, on] =
+                [of.iter().map(|&f| off[f]).sum::<usize>(), of.iter().map(|&f| members.of[f].len()).sum()];
+            off > OFF_ALWAYS + (OFF * on as f64) as usize
+        };
         let is_bent = |of: &[usize]| {
             let known: Vec<&Bend> = of.iter().filter_map(|&f| bends[f].as_ref()).collect();
             let count = known.len() as f64;
@@ -89,23 +95,20 @@ pub(super) fn are_bent(corners: &ScanCorners, fitted: &Fitted, inflation: f64) -
             fall > FORMS * count + BENT * count.sqrt() + BENT_ONE
                 || (count > 1.0 && outward > OUTWARD * count.sqrt())
         };
-        let together = is_bent(&group);
-        group.iter().for_each(|&f| are_bent[f] |= together || is_bent(&[f]));
+        let together = is_bent(&group) || are_off(&group);
+        group.iter().for_each(|&f| are_bent[f] = together || is_bent(&[f]) || are_off(&[f]));
     }
     are_bent
 }
 
-/// Returns for each facet whether many of the corners that lie nearest to it lie off it.
-fn are_off(corners: &ScanCorners, fitted: &Fitted) -> Vec<bool> {
+/// Returns for each facet how many of the corners that lie nearest to it lie off it.
+fn off(corners: &ScanCorners, fitted: &Fitted) -> Vec<usize> {
     let planes: Vec<Plane> = fitted.polytope.planes().collect();
     let mut off = vec![0; planes.len()];
     for (at, _) in corners.at.iter().zip(&fitted.members.explained).filter(|(_, known)| !**known) {
         off[outermost(&planes, *at).0] += 1;
     }
-    off.iter()
-        .zip(&fitted.members.of)
-        .map(|(off, of)| *off > OFF_ALWAYS + (OFF * of.len() as f64) as usize)
-        .collect()
+    off
 }
 
 /// Returns the facets in groups of neighbours that lean little from each other.

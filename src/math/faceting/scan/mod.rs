@@ -68,6 +68,11 @@ pub(super) fn scanned(surface: &Surface, most: usize) -> Option<ScannedSolid> {
     ASSUMED.iter().find_map(|times| Scan { surface, corners: &corners, noise: times * noise, most }.solid())
 }
 
+/// Returns the standard deviation of a surface's noise, as patches of its corners show it; `None` where it has too few.
+pub(super) fn noise(surface: &Surface) -> Option<f64> {
+    ScanCorners::of(surface).noise()
+}
+
 /// A scan, and the noise that is assumed.
 struct Scan<'a> {
     surface: &'a Surface,
