@@ -1,7 +1,7 @@
 //! Scans of cut stones whose facets are known: a stone's facets are divided into small triangles, and noise moves every corner.
 #![allow(dead_code, reason = "each test uses its part")]
 
-use brillianteer::math::{Plane, Polytope, Surface};
+use brillianteer::math::{Facet, Plane, Polytope, Surface};
 use glam::{DQuat, DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::{BTreeSet, HashMap};
@@ -14,6 +14,8 @@ pub const RADIUS_MM: f64 = 3.25;
 pub enum Corners {
     /// Evenly spread over the facets and along the edges of the stone, so that about so many triangles lie between them.
     Meshed(u32),
+    /// On the triangles of the facets, whose sides are halved until there are about so many: narrow facets have as many as wide ones.
+    Halved(u32),
     /// Evenly spread directions from the middle, about so many: triangles lie across the edges.
     Radial(u32),
 }
@@ -64,6 +66,7 @@ impl Scan {
         let mut random = Random::new(self.seed);
         let (mut surface, facets) = match self.corners {
             Corners::Meshed(triangles) => meshed(&solid, triangles),
+            Corners::Halved(triangles) => halved(&solid, triangles),
             Corners::Radial(count) => (radial(&solid, count), vec![]),
         };
         if self.kept < 1.0 {
@@ -142,6 +145,36 @@ fn meshed(solid: &Polytope, triangles: u32) -> (Surface, Vec<u32>) {
         facets.resize(surface.triangles.len(), number);
     }
     (Surface::new(surface.vertices, surface.triangles), facets)
+}
+
+/// Divides a solid's facets into triangles, and these into four each until there are more than half as many as wanted; returns the
+/// facet of each triangle as well.
+fn halved(solid: &Polytope, wanted: u32) -> (Surface, Vec<u32>) {
+    let mut vertices = solid.vertices().to_vec();
+    let fan = |(number, facet): (u32, &Facet)| {
+        let outline = facet.outline.clone();
+        (1..outline.len() - 1)
+            .map(move |k| ([outline[0], outline[k], outline[k + 1]], number))
+            .collect::<Vec<_>>()
+    };
+    let mut triangles: Vec<([u32; 3], u32)> = (0..).zip(solid.facets()).flat_map(fan).collect();
+    while triangles.len() * 2 <= wanted as usize {
+        let mut middles = HashMap::new();
+        let mut parts = vec![];
+        for ([a, b, c], facet) in triangles {
+            let mut middle = |a: u32, b: u32| {
+                *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                    vertices.push(vertices[a as usize].midpoint(vertices[b as usize]));
+                    vertices.len() as u32 - 1
+                })
+            };
+            let (x, y, z) = (middle(a, b), middle(b, c), middle(c, a));
+            parts.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]].map(|part| (part, facet)));
+        }
+        triangles = parts;
+    }
+    let (triangles, facets) = triangles.into_iter().unzip();
+    (Surface::new(vertices, triangles), facets)
 }
 
 /// Fills an outline with corners in rows and Delaunay's triangles between them.

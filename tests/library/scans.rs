@@ -222,6 +222,26 @@ fn an_uneven_stone_stays_as_found_and_an_even_one_is_evened_unless_it_is_to_stay
 }
 
 #[test]
+fn cuts_with_narrow_facets_are_evened_where_they_are_even_and_their_errors_cover() {
+    let mut all = Tally::default();
+    for (name, turns, seeds) in [("tolkowsky", 8, 1), ("pear", 1, 2)] {
+        let stone = cut(name);
+        let scan = |seed| Scan { corners: Corners::Halved(20_000), ..Scan::meshed(0, 1.0, seed) };
+        for seed in 1..=seeds {
+            let found = found(&scan(seed), &stone);
+            all.add(&found, &scan(seed).planes(&stone), name);
+            assert!(found.faces.iter().all(|face| !face.is_bent), "{name}");
+            let evened = stone_of(&found, Evening::WhereLikely).evened;
+            assert!(evened.turns == turns && evened.mirror.is_some(), "{name}, seed {seed}: {evened:?}");
+        }
+        let uneven = flawed(&stone, SLOPE_DEG, AZIMUTH_DEG, 5);
+        let evened = stone_of(&found(&scan(1), &uneven), Evening::WhereLikely).evened;
+        assert_eq!((evened.turns, evened.mirror), (1, None), "{name}");
+    }
+    assert!(all.coverage().iter().all(|c| (91.5..97.5).contains(c)), "{:?} of {}", all.coverage(), all.count);
+}
+
+#[test]
 fn deviations_of_facets_are_those_of_the_stone_within_their_errors() {
     let stone = uneven();
     let truth = facet_deviations(&Stone::new(&named(&stone)).unwrap()).unwrap();

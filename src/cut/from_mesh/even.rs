@@ -119,7 +119,7 @@ impl Even {
 }
 
 /// Returns the plane mirrored in the upright plane of an azimuth.
-fn mirrored(plane: &Plane, azimuth: f64) -> Plane {
+pub(super) fn mirrored(plane: &Plane, azimuth: f64) -> Plane {
     let (sin, cos) = (2.0 * azimuth).sin_cos();
     let n = plane.normal;
     Plane::new(DVec3::new(cos * n.x + sin * n.y, sin * n.x - cos * n.y, n.z), plane.offset)

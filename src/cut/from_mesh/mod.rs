@@ -12,6 +12,7 @@ mod evening;
 mod facet_error;
 mod likeness;
 mod name;
+mod nearly;
 mod outline;
 mod up;
 mod whole_table;
@@ -43,6 +44,9 @@ pub struct FromMesh {
     /// The symmetry that was given to the planes, because they had it except for noise; [`Symmetry::NONE`] where they
     /// were left as found.
     pub evened: Symmetry,
+    /// The number of facets without which a scan that stays as found would have a symmetry; `None` where it has one, or lacks more
+    /// than a few.
+    pub lacking: Option<usize>,
     /// The direction that was taken as up, in the surface's frame, a unit vector.
     pub up: DVec3,
     /// The standard errors of the facets of a scan, in the order of the facets; empty where the surface is no scan.
@@ -116,8 +120,11 @@ fn posed(found: &Faceted, up: Up, evening: Evening) -> Result<Made, FromMeshErro
     let level = table.filter(|_| even.symmetry(upright.turn) == Symmetry::NONE && !is_posed);
     let errors = errors(found, &pose, &facets, &posed, level);
     let table_part = table.filter(|_| !is_posed).and_then(|table| table_part(found, table, &facets, &posed));
+    let is_left = evening == Evening::WhereLikely && even.symmetry(upright.turn) == Symmetry::NONE;
+    let lacking = if is_left && !errors.is_empty() { nearly::lacking(&even.planes) } else { None };
     let stone = FromMesh {
         errors,
+        lacking,
         facets,
         pose,
         deviation: deviation(&polytope, &points),

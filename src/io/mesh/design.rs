@@ -187,6 +187,15 @@ fn divided(part: &TablePart) -> String {
     )
 }
 
+/// Returns the warning about a scan that lacks a symmetry by so few facets that noise may have divided or joined them.
+fn lacking(facets: usize) -> String {
+    let of = if facets == 1 { "1 facet".to_owned() } else { format!("{facets} facets") };
+    format!(
+        "it was not evened: all its facets but {of} have images of about the same place and slope, and noise may have divided a facet \
+         or joined two; a scan with less noise or more corners would tell"
+    )
+}
+
 /// Returns the note on a stone that was given a symmetry; `None` where it was left as found.
 fn evened(symmetry: &Symmetry) -> Option<String> {
     const FOLDS: [&str; 11] = [
@@ -257,6 +266,7 @@ impl File {
         remarks.notes.extend(known_to(&errors));
         remarks.warnings.extend(bent(&errors));
         remarks.warnings.extend(made.table_part.as_ref().map(divided));
+        remarks.warnings.extend(made.lacking.map(lacking));
         let evened = evened(&made.evened);
         let is_evened = evened.is_some();
         remarks.notes.extend(evened);
