@@ -15,8 +15,8 @@ pub const MODELLED: usize = 12;
 /// The part of a model's corners that may lie within facets, where no others meet.
 const WITHIN: f64 = 0.1;
 
-/// The tolerance, as a part of the size, up to which corners lie off their facets by rounding rather than noise.
-const ROUNDING: f64 = 2e-6;
+/// The distance, as a part of the size, up to which corners lie off their facets by rounding rather than noise.
+const ROUNDING: f64 = 1e-5;
 
 /// Edges that bend inward by less than this are flat except for rounding, radians.
 const BENT: f64 = 2e-4;
@@ -33,7 +33,7 @@ pub(super) fn is_noisy(surface: &Surface) -> bool {
 /// made. Such a surface has many corners within facets, as a scan has, and a model has none there: its corners are where facets
 /// meet. The number of corners for each facet does not tell, for there are the more facets the more of them are false.
 pub(super) fn is_of_noise(surface: &Surface, solid: &MatchingSolid) -> bool {
-    let is_rounded = solid.tolerance <= ROUNDING * surface.size();
+    let is_rounded = solid.deviation <= ROUNDING * surface.size();
     if solid.errors.is_some() || is_rounded || !is_noisy(surface) {
         return false;
     }
