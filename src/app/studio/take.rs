@@ -44,10 +44,7 @@ impl ShotTracer {
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), Failure> {
-        let shot = match effort.is_refined() {
-            true => &*shot.under_whole_light(watch)?,
-            false => shot,
-        };
+        let shot = if effort.is_refined() { &*shot.under_whole_light(watch)? } else { shot };
         match shot.shows {
             Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
@@ -252,11 +249,9 @@ mod tests {
     fn only_a_rough_picture_is_taken_under_a_coarse_light() {
         let [whole, map] = ["dome", "ring"].map(|name| Lighting::load(name).unwrap());
         let coarse = ShotLight::coarse(Lighting { map: map.map, ..whole.clone() });
-        let [whole, coarse] = [ShotLight::whole(whole), coarse].map(|light| Shot {
-            light,
-            bands: 3,
-            ..shot(Shows::Render, None)
-        });
+        let small = shot(Shows::Render, None);
+        let small = Shot { film: coarser(&small.film, 2.0), bands: 3, ..small };
+        let [whole, coarse] = [ShotLight::whole(whole), coarse].map(|light| Shot { light, ..small.clone() });
         let image = |shot: &Shot, refinement| taken(&mut ShotTracer::default(), shot, 3, refinement).image;
         assert_ne!(image(&coarse, None), image(&whole, None), "a rough picture takes what is at hand");
         let refinement = Some(Refinement { samples: 2, after: 0, unresolved: 2e-2 });
