@@ -69,10 +69,11 @@ impl MeasuredGirdle<'_> {
         let reaches = |facet: &Facet| {
             facet.outline.iter().any(|k| corners.contains(k)) || self.stone.corners(facet).any(|at| near(&at))
         };
-        let leaning = || side.iter().filter(|facet| facet.plane.normal.truncate().length() >= EXACT);
+        let leaning = || side.iter().copied().filter(|facet| facet.plane.normal.truncate().length() >= EXACT);
         // The place on the rim in the middle of a facet's side.
         let rim_of = |facet: &Facet| {
-            let across = facet.plane.normal.truncate().normalize();
+            let lean = facet.plane.normal.truncate();
+            let across = lean / lean.length();
             let of_corners = corners.iter().map(|k| across.dot(vertices[*k as usize].truncate()));
             let reach = match radius {
                 Some(radius) => across.dot(self.middle) + radius,
@@ -83,14 +84,14 @@ impl MeasuredGirdle<'_> {
         let height_at = |facet: &Facet, rim: DVec2| {
             (facet.plane.offset - facet.plane.normal.truncate().dot(rim)) / facet.plane.normal.z
         };
-        let along = |facet: &&Facet| {
+        let along = |facet: &Facet| {
             let (rim, sign) = (rim_of(facet), facet.plane.normal.z.signum());
             let height = height_at(facet, rim);
             let edge = leaning().map(|other| sign * height_at(other, rim)).fold(f64::INFINITY, f64::min);
             let is_there = reaches(facet) || sign * height - edge < LIFTED * self.width;
             is_there.then(|| (facet.plane.normal.truncate().to_angle(), height))
         };
-        leaning().filter_map(|facet| along(&facet)).collect()
+        leaning().filter_map(along).collect()
     }
 
     /// Returns the azimuths and the heights of the corners in which facets of a side meet the girdle.
