@@ -89,7 +89,7 @@ fn round(count: u32, dimple: f64) -> Surface {
 fn what_has_no_facets_is_curved_or_concave_or_has_noise_that_may_hide_them() {
     for (dimple, noise, why) in [
         (0.0, 0.0, Unfaceted::Curved),
-        (0.0, 2e-3, Unfaceted::Noisy),
+        (0.0, 4e-3, Unfaceted::Noisy),
         (0.5, 0.0, Unfaceted::Concave),
         (0.5, 2e-3, Unfaceted::Concave),
     ] {

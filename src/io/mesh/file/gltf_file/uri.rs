@@ -27,9 +27,9 @@ pub(super) fn read(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
     // Some programs write names as they are, though they hold a percent sign; some add a query for a server.
     let bare = uri.split(['?', '#']).next().unwrap_or_default();
     let paths = [name.clone(), uri.into(), decoded(bare)];
-    // Each of them must lie within the folder: a percent sign hides no way out.
-    let paths: Option<Vec<PathBuf>> = paths.iter().map(|name| within(folder?, name)).collect();
-    let paths = paths.unwrap_or_default();
+    // A percent sign hides no way out of the folder.
+    let folder = folder.filter(|folder| within(folder, &paths[2]).is_some());
+    let paths: Vec<PathBuf> = paths.iter().filter_map(|name| within(folder?, name)).collect();
     let Some(path) = paths.iter().find(|path| path.exists()).or(paths.first()) else {
         return Err(format!(
             "`{name:.80}` is not a file beside this one or below; put it there, or embed it"
