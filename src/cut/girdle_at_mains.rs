@@ -15,8 +15,8 @@ const LEVEL: f64 = 2e-6;
 /// A facet reaches the girdle if a corner of it lies nearer than this to one of the girdle's, in widths of the stone.
 const REACHES: f64 = 1e-5;
 
-/// A facet reaches the girdle as well if its plane, in the middle of its own side of the rim, lies beyond the girdle's edge by
-/// less than this, in widths of the stone.
+/// A facet of a circle reaches the girdle as well if its plane, in the middle of its own side of the rim, lies beyond the girdle's
+/// edge by less than this, in widths of the stone.
 ///
 /// Mains meet the girdle in a point between two halves, which lean little from them: noise of 0.3 µm in a plane of a pavilion
 /// lets its main end 20 µm short of the girdle, but lifts its plane there by no more than it is itself.
@@ -70,26 +70,29 @@ impl MeasuredGirdle<'_> {
             facet.outline.iter().any(|k| corners.contains(k)) || self.stone.corners(facet).any(|at| near(&at))
         };
         let leaning = || side.iter().copied().filter(|facet| facet.plane.normal.truncate().length() >= EXACT);
-        // The place on the rim in the middle of a facet's side.
-        let rim_of = |facet: &Facet| {
-            let lean = facet.plane.normal.truncate();
-            let across = lean / lean.length();
-            let of_corners = corners.iter().map(|k| across.dot(vertices[*k as usize].truncate()));
-            let reach = match radius {
-                Some(radius) => across.dot(self.middle) + radius,
-                None => of_corners.fold(f64::NEG_INFINITY, f64::max),
-            };
-            self.middle + across * (reach - across.dot(self.middle))
-        };
         let height_at = |facet: &Facet, rim: DVec2| {
             (facet.plane.offset - facet.plane.normal.truncate().dot(rim)) / facet.plane.normal.z
         };
-        let along = |facet: &Facet| {
-            let (rim, sign) = (rim_of(facet), facet.plane.normal.z.signum());
-            let height = height_at(facet, rim);
+        // Whether a plane meets the circle hardly beyond the edge that the planes have there.
+        let is_near = |facet: &Facet, rim: DVec2| {
+            let sign = facet.plane.normal.z.signum();
             let edge = leaning().map(|other| sign * height_at(other, rim)).fold(f64::INFINITY, f64::min);
-            let is_there = reaches(facet) || sign * height - edge < LIFTED * self.width;
-            is_there.then(|| (facet.plane.normal.truncate().to_angle(), height))
+            sign * height_at(facet, rim) - edge < LIFTED * self.width
+        };
+        let along = |facet: &Facet| {
+            let across = facet.plane.normal.truncate();
+            let height = match radius {
+                Some(radius) => {
+                    let rim = self.middle + across * (radius / across.length());
+                    (reaches(facet) || is_near(facet, rim)).then(|| height_at(facet, rim))
+                }
+                None => {
+                    let of_corners = corners.iter().map(|k| across.dot(vertices[*k as usize].truncate()));
+                    let rim = of_corners.fold(f64::NEG_INFINITY, f64::max);
+                    reaches(facet).then_some((facet.plane.offset - rim) / facet.plane.normal.z)
+                }
+            };
+            Some((across.to_angle(), height?))
         };
         leaning().filter_map(along).collect()
     }

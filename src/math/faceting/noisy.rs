@@ -21,6 +21,10 @@ const ROUNDING: f64 = 1e-5;
 /// Edges that bend inward by less than this are flat except for rounding, radians.
 const BENT: f64 = 2e-4;
 
+/// A surface of fewer corners than this is read with what facets are found: where a scan was thinned out to a few corners for each
+/// facet, many of them lie within facets as well.
+const FEWEST_OF_NOISE: usize = 1000;
+
 /// Returns whether noise bends a surface everywhere, as that of a scan: nearly as often inward as outward. A model of few corners, such
 /// as a star, may bend inward as often by intent.
 pub(super) fn is_noisy(surface: &Surface) -> bool {
@@ -34,7 +38,8 @@ pub(super) fn is_noisy(surface: &Surface) -> bool {
 /// meet. The number of corners for each facet does not tell, for there are the more facets the more of them are false.
 pub(super) fn is_of_noise(surface: &Surface, solid: &MatchingSolid) -> bool {
     let is_rounded = solid.deviation <= ROUNDING * surface.size();
-    if solid.errors.is_some() || is_rounded || !is_noisy(surface) {
+    if solid.errors.is_some() || is_rounded || surface.vertices.len() < FEWEST_OF_NOISE || !is_noisy(surface)
+    {
         return false;
     }
     let planes: Vec<Plane> = solid.polytope.planes().collect();
