@@ -34,8 +34,9 @@ pub(super) fn lacking(planes: &[Plane]) -> Option<usize> {
         let mirror = (azimuth(first) + azimuth(plane)) / 2.0;
         lacking(&|plane: &Plane| mirrored(plane, mirror))
     });
-    let least = turned.chain(mirrors).min()?;
-    (least > 0 && least <= FEW_ALWAYS + (FEW * planes.len() as f64) as usize).then_some(least)
+    // A mirror between a facet and a strip of it carries the one to the other, and lacks nothing.
+    let least = turned.chain(mirrors).filter(|lacks| *lacks > 0).min()?;
+    (least <= FEW_ALWAYS + (FEW * planes.len() as f64) as usize).then_some(least)
 }
 
 #[cfg(test)]
@@ -51,6 +52,9 @@ mod tests {
         // Off every mirror of the others.
         planes.push(side(0.2, 0.61));
         assert_eq!(lacking(&planes), Some(1));
+        planes.pop();
+        planes.push(side(0.01, 0.61));
+        assert_eq!(lacking(&planes), Some(1), "a strip of a facet");
         let uneven: Vec<Plane> =
             (0..16).map(|k| side(f64::from(k * k) * 0.37, 0.3 + 0.15 * f64::from(k))).collect();
         assert_eq!(lacking(&uneven), None);
