@@ -13,10 +13,9 @@ pub fn at_once<T: Sync, R: Send + Sync>(most: usize, items: &[T], work: impl Fn(
     let next = AtomicUsize::new(0);
     let done: Vec<OnceLock<R>> = items.iter().map(|_| OnceLock::new()).collect();
     let take = |_| {
-        while let Some((item, place)) = Some(next.fetch_add(1, Ordering::Relaxed))
-            .and_then(|next| Some((items.get(next)?, done.get(next)?)))
-        {
-            // Each place is taken once.
+        // Each item is taken once.
+        let turn = || items.iter().zip(&done).nth(next.fetch_add(1, Ordering::Relaxed));
+        while let Some((item, place)) = turn() {
             let _ = place.set(work(item));
         }
     };
