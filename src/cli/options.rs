@@ -4,7 +4,7 @@ use super::specimen::{LoadedSpecimen, note_colour};
 use crate::io::export::Viewing;
 use crate::io::{Failure, nearest, scope_file};
 use crate::measure::STANDARD_ERROR;
-use crate::optics::{Material, line};
+use crate::optics::{INDICES, INDICES_IN_WORDS, Material, line};
 use crate::picture::{Picture, Scoped, named, names};
 use crate::render::{Renderer, Unfit, Wanted};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
@@ -242,8 +242,8 @@ impl LightOptions {
                 }
             })?,
         };
-        if !(1.0..=5.0).contains(&index) {
-            return Err(Failure::Usage(format!("an index of {index} is not from 1 (air) to 5")));
+        if !INDICES.contains(&index) {
+            return Err(Failure::Usage(format!("an index of {index} is not from {INDICES_IN_WORDS}")));
         }
         if let Some(warning) = extrapolation(material, wavelength).filter(|_| self.index.is_none()) {
             specimen.say(&warning);

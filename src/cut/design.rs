@@ -314,7 +314,7 @@ mod tests {
             ),
             (
                 Design { material: MaterialRef::Index(0.0), ..good.clone() },
-                "material: the index 0 must be from 1 (vacuum) to 5",
+                "material: the index 0 must be from 1 (air) to 6",
             ),
         ];
         for (design, expected) in cases {

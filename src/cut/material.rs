@@ -1,6 +1,8 @@
 //! The material of a stone in a cut file. [`optics`] describes the materials themselves.
 
-use crate::optics::{self, Dispersion, DispersionError, Material, UnknownMaterial, VISIBLE_NM};
+use crate::optics::{
+    self, Dispersion, DispersionError, INDICES, INDICES_IN_WORDS, Material, UnknownMaterial, VISIBLE_NM,
+};
 
 /// The densities that a material may have, g/cm³: from aerogel to beyond osmium.
 const DENSITIES: std::ops::RangeInclusive<f64> = 0.1..=30.0;
@@ -10,9 +12,9 @@ const DENSITIES: std::ops::RangeInclusive<f64> = 0.1..=30.0;
 pub enum MaterialRef {
     /// A material of the library, by its name.
     Name(String),
-    /// The same refractive index for every wavelength, 1 to 5, without absorption.
+    /// The same refractive index for every wavelength, from [`INDICES`], without absorption.
     Index(f64),
-    /// A material that the file itself defines. Its index is from 1 to 5 throughout visible light.
+    /// A material that the file itself defines. Its index is in [`INDICES`] throughout visible light.
     Custom(Box<Material>),
 }
 
@@ -28,8 +30,8 @@ pub enum MaterialError {
     /// A name that is not in the library.
     #[error("material: {0}")]
     Unknown(#[from] UnknownMaterial),
-    /// An index outside 1 to 5.
-    #[error("{key}: the index {value} must be from 1 (vacuum) to 5")]
+    /// An index outside [`INDICES`].
+    #[error("{key}: the index {value} must be from {INDICES_IN_WORDS}")]
     Index {
         /// The key at fault.
         key: &'static str,
@@ -37,7 +39,7 @@ pub enum MaterialError {
         value: f64,
     },
     /// A law that gives an index above 5 at some wavelength.
-    #[error("{key}: the index {value} at {nm} nm must be at most 5; check the coefficients")]
+    #[error("{key}: the index {value} at {nm} nm must be at most {}; check the coefficients", INDICES.end())]
     IndexAt {
         /// The key at fault.
         key: &'static str,
@@ -125,7 +127,7 @@ fn check_name(key: &'static str, name: &str) -> Result<(), MaterialError> {
 }
 
 fn check_index(key: &'static str, value: f64) -> Result<(), MaterialError> {
-    if (1.0..=5.0).contains(&value) { Ok(()) } else { Err(MaterialError::Index { key, value }) }
+    if INDICES.contains(&value) { Ok(()) } else { Err(MaterialError::Index { key, value }) }
 }
 
 fn check_range(valid_nm: Option<(f64, f64)>) -> Result<(), MaterialError> {
@@ -159,7 +161,7 @@ fn check_law(law: &Dispersion) -> Result<(), MaterialError> {
     law.clone().checked().map_err(|fault| MaterialError::Dispersion { key, fault })?;
     let steps = (VISIBLE_NM.end() - VISIBLE_NM.start()) as u32;
     let mut wavelengths = (0..=steps).map(|step| VISIBLE_NM.start() + f64::from(step));
-    match wavelengths.find(|nm| law.index(*nm) > 5.0) {
+    match wavelengths.find(|nm| law.index(*nm) > *INDICES.end()) {
         Some(nm) => Err(MaterialError::IndexAt { key, value: law.index(nm), nm }),
         None => Ok(()),
     }
@@ -185,7 +187,7 @@ mod tests {
         assert_eq!(MaterialRef::Custom(Box::new(diamond.clone())).material().as_ref(), Ok(diamond));
         let bare = MaterialRef::Index(2.42).material().unwrap();
         assert_eq!((bare.name.as_str(), bare.index(500.0)), ("index 2.42", 2.42));
-        assert!(bare.absorption[0].is_clear() && MaterialRef::Index(5.0).check().is_ok());
+        assert!(bare.absorption[0].is_clear() && MaterialRef::Index(6.0).check().is_ok());
         for law in [
             Dispersion::Constant(1.0),
             sellmeier(1.0, &[(0.3306, 0.1750), (4.3356, 0.1060)]),
@@ -213,27 +215,24 @@ mod tests {
                 "material: unknown material 'Saphire'; did you mean 'sapphire'? known: diamond, ",
             ),
             (glass(|m| m.name = " ".to_owned()), "name: a name of 1 to 200 printable characters is expected"),
-            (MaterialRef::Index(0.9), "material: the index 0.9 must be from 1 (vacuum) to 5"),
-            (MaterialRef::Index(f64::INFINITY), "material: the index inf must be from 1 (vacuum) to 5"),
-            (own(Dispersion::Constant(5.1)), "index: the index 5.1 must be from 1 (vacuum) to 5"),
-            (own(Dispersion::Constant(f64::NAN)), "index: the index NaN must be from 1 (vacuum) to 5"),
+            (MaterialRef::Index(0.9), "material: the index 0.9 must be from 1 (air) to 6"),
+            (MaterialRef::Index(f64::INFINITY), "material: the index inf must be from 1 (air) to 6"),
+            (own(Dispersion::Constant(6.1)), "index: the index 6.1 must be from 1 (air) to 6"),
+            (own(Dispersion::Constant(f64::NAN)), "index: the index NaN must be from 1 (air) to 6"),
             (
                 own(sellmeier(1.0, &[(1.0, 0.5)])),
                 "sellmeier: the dispersion has a resonance at 500.0 nm, in visible light",
             ),
             (own(sellmeier(0.5, &[])), "dispersion: the dispersion gives no refractive index of 1 or more"),
             (
-                own(Dispersion::Cauchy { a: 4.0, b: 0.1296 + 1e-9 }),
-                "cauchy: the index 5.000000007716049 at 360 nm must be at most 5; check the coefficients",
+                own(Dispersion::Cauchy { a: 5.0, b: 0.1296 + 1e-9 }),
+                "cauchy: the index 6.000000007716049 at 360 nm must be at most 6; check the coefficients",
             ),
             (
                 own(Dispersion::Cauchy { a: 1.5, b: f64::INFINITY }),
                 "cauchy: the dispersion gives no refractive index of 1 or more at 360 nm",
             ),
-            (
-                own(Dispersion::Abbe { n_d: 0.9, v_d: 50.0 }),
-                "abbe: the index 0.9 must be from 1 (vacuum) to 5",
-            ),
+            (own(Dispersion::Abbe { n_d: 0.9, v_d: 50.0 }), "abbe: the index 0.9 must be from 1 (air) to 6"),
             (
                 own(Dispersion::Abbe { n_d: 1.5, v_d: 0.0 }),
                 "abbe: an Abbe number of 0: give a number above 0",

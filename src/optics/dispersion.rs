@@ -10,6 +10,12 @@ use std::ops::RangeInclusive;
 /// the tables of the CIE 1931 observer, beyond which the eye sees nothing.
 pub const VISIBLE_NM: RangeInclusive<f64> = 360.0..=830.0;
 
+/// The refractive indices that a material may have: from that of air to somewhat more than that of any clear solid.
+pub const INDICES: RangeInclusive<f64> = 1.0..=6.0;
+
+/// [`INDICES`] in words, for errors.
+pub const INDICES_IN_WORDS: &str = "1 (air) to 6";
+
 /// The spectral lines by which gemmology and optics name wavelengths, in nm (in air).
 pub mod line {
     /// Sodium D, the mean of the doublet, at which a gem's index is quoted.

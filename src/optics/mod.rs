@@ -23,7 +23,7 @@ mod weight;
 
 pub use absorption::{Absorption, AbsorptionError, MOST_PER_MM};
 pub use colour::{LUMINANCE, LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encoded};
-pub use dispersion::{Dispersion, DispersionError, VISIBLE_NM, line};
+pub use dispersion::{Dispersion, DispersionError, INDICES, INDICES_IN_WORDS, VISIBLE_NM, line};
 pub use fresnel::{Fresnel, fresnel, reflectance};
 pub use frosted::{FrostedScatter, FrostedSurface};
 pub use illuminant::{DAYLIGHT_KELVIN, Illuminant, IlluminantError};

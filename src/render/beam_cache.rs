@@ -13,6 +13,10 @@ const MOST_KEPT: usize = 6;
 /// then it is kept alone.
 const MOST_BYTES: usize = 128 << 20;
 
+/// The memory of the beams of all sets and of the set that is being traced, bytes, if that one takes no more than the largest set
+/// that is kept.
+const WITH_NEXT_BYTES: usize = 400 << 20;
+
 /// Beams that several pictures share.
 #[derive(Default)]
 pub struct BeamCache {
@@ -48,8 +52,9 @@ impl BeamCache {
         if let Some(beams) = self.kept(body, medium, view, options) {
             return Ok(beams);
         }
-        // Old sets make room before the new one takes its memory.
-        self.shrink(MOST_KEPT - 1, MOST_BYTES);
+        // Old sets make room before the new one takes its memory, which is probably about that of the others.
+        let largest = self.kept.iter().map(|kept| kept.beams.bytes()).max().unwrap_or(0);
+        self.shrink(MOST_KEPT - 1, MOST_BYTES.min(WITH_NEXT_BYTES.saturating_sub(largest)));
         let beams = Arc::new(beam::trace(polytope, medium, view, options, watch)?);
         self.shrink(MOST_KEPT - 1, MOST_BYTES.saturating_sub(beams.bytes()));
         let (body, view, options) = (Arc::clone(body), *view, *options);
@@ -84,6 +89,11 @@ impl BeamCache {
         while self.kept.len() > most_sets || bytes > most_bytes {
             bytes -= self.kept.remove(0).beams.bytes();
         }
+    }
+
+    /// Drops all beams.
+    pub fn clear(&mut self) {
+        self.kept.clear();
     }
 
     /// Begins a round: beams that were not used in the last one are dropped.

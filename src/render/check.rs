@@ -2,7 +2,7 @@
 
 use super::job::{Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality};
 use super::surroundings::Surroundings;
-use crate::optics::DispersionError;
+use crate::optics::{DispersionError, INDICES, INDICES_IN_WORDS};
 use crate::scene::{Film, Medium, Panorama, PanoramaError, Pose, Projection, Scene, Scope, ScopeError, View};
 use crate::trace::environment::LightingError;
 use glam::DQuat;
@@ -212,7 +212,7 @@ impl MeasuresProduct {
         demand((0.0..=90.0).contains(&head), "settings.head_deg", head, "0 to 90 degrees")?;
         positive("settings.blur_deg", settings.blur_deg)?;
         for index in settings.indices {
-            demand((1.0..=5.0).contains(&index), "settings.indices", index, "1 (air) to 5")?;
+            demand(INDICES.contains(&index), "settings.indices", index, INDICES_IN_WORDS)?;
         }
         if let Some(pattern) = &settings.pattern {
             positive("settings.pattern.resolves_mm", pattern.resolves_mm)?;

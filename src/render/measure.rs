@@ -7,16 +7,13 @@ use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
 use crate::cut::Design;
 use crate::measure::{Bounds, Measured};
-use crate::optics::{DispersionError, line};
+use crate::optics::{DispersionError, INDICES, INDICES_IN_WORDS, line};
 use crate::scene::{
     ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,
     Viewpoint,
 };
 use crate::trace::unwatched;
 use std::sync::Arc;
-
-/// The range of refractive indices that can be traced.
-const INDICES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
 
 /// The options by which a design is measured.
 #[derive(Clone)]
@@ -85,7 +82,7 @@ pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, Me
     let specimen = Specimen::new(design.clone())?;
     let material = &specimen.material;
     let index = options.index.map_or_else(|| material.dispersion.try_index(options.wavelength_nm), Ok)?;
-    demand(INDICES.contains(&index), "index", index, "1 (air) to 5")?;
+    demand(INDICES.contains(&index), "index", index, INDICES_IN_WORDS)?;
     let absorption = Medium::absorption_of(material, options.wavelength_nm, specimen.unit_mm());
     let medium = Medium { index, absorption, spread: 0.0 };
     let job = Job {

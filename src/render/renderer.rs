@@ -196,6 +196,11 @@ impl Renderer {
         self.beams.begin_round();
     }
 
+    /// Drops all beams, so that work without this renderer has their memory.
+    pub fn drop_beams(&mut self) {
+        self.beams.clear();
+    }
+
     /// Does a job. Where a card fails, the processor does all of it again.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use crate::cut::{
     scaled,
 };
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
-use crate::optics::{DispersionError, Material, line};
+use crate::optics::{DispersionError, INDICES, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
 use crate::trace::Watch;
 use std::fmt;
@@ -412,7 +412,7 @@ impl VariedDesign {
                 };
                 self.design.material.material().map(drop)?;
             }
-            SweepKey::Index => self.index = Some(number?).filter(|n| (1.0..=5.0).contains(n)),
+            SweepKey::Index => self.index = Some(number?).filter(|n| INDICES.contains(n)),
             SweepKey::Tilt => self.viewpoint.tilt_deg = number?,
             SweepKey::Azimuth => self.viewpoint.azimuth_deg = number?,
             SweepKey::Proportion(key) => set_proportion(&mut self.design.cut, key, number?)?,
@@ -438,7 +438,7 @@ impl VariedDesign {
             }
         }
         if *key == SweepKey::Index && self.index.is_none() {
-            return Err(wrong("index from 1 (air) to 5"));
+            return Err(wrong("index from 1 (air) to 6"));
         }
         if *key == SweepKey::Tilt && !(-90.0..=90.0).contains(&self.viewpoint.tilt_deg) {
             return Err(wrong("tilt from -90 to 90 degrees"));

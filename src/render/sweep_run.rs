@@ -23,13 +23,29 @@ impl Sweep {
         &self,
         points: impl IntoIterator<Item = usize>,
         watch: Watch,
+        each: impl FnMut(usize, Result<SweptStone, SweepError>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.run_in(1, points, watch, each)
+    }
+
+    /// As [`run`](Self::run), but no point takes more than one part of so many of the memory of beams, and so of the time that
+    /// goes with it; the intervals of a point that needs more are as wide as what is left.
+    ///
+    /// # Errors
+    /// Those of [`run`](Self::run).
+    pub fn run_in<E: From<Stopped>>(
+        &self,
+        fewest_parts: usize,
+        points: impl IntoIterator<Item = usize>,
+        watch: Watch,
         mut each: impl FnMut(usize, Result<SweptStone, SweepError>) -> Result<(), E>,
     ) -> Result<(), E> {
+        let parts: Vec<usize> = PARTS.into_iter().filter(|parts| *parts >= fewest_parts).collect();
         let points: Vec<usize> = points.into_iter().collect();
         let (all, done) = (points.len().max(1) as f64, AtomicUsize::new(0));
         let watch = |_: f64| watch(done.load(Ordering::Relaxed) as f64 / all);
         for some in points.chunks(AT_ONCE) {
-            for (&point, found) in some.iter().zip(self.measured(some, &done, &watch)) {
+            for (&point, found) in some.iter().zip(self.measured(some, &parts, &done, &watch)) {
                 match found {
                     Err(SweepError::Render(RenderError::Stopped(stopped))) => return Err(stopped.into()),
                     found => each(point, found)?,
@@ -43,18 +59,21 @@ impl Sweep {
     fn measured(
         &self,
         points: &[usize],
+        each_parts: &[usize],
         done: &AtomicUsize,
         watch: Watch,
     ) -> Vec<Result<SweptStone, SweepError>> {
+        let last = each_parts.last().copied();
         let measured = |point: usize, parts: usize| {
             let found = self.point(point, parts, watch);
-            if parts == 1 || !needs_more(&found) {
+            if Some(parts) == last || !needs_more(&found) {
                 done.fetch_add(1, Ordering::Relaxed);
             }
             found
         };
-        let mut found = at_once(PARTS[0], points, |&point| measured(point, PARTS[0]));
-        for parts in &PARTS[1..] {
+        let Some((first, more)) = each_parts.split_first() else { return vec![] };
+        let mut found = at_once(*first, points, |&point| measured(point, *first));
+        for parts in more {
             let again: Vec<usize> = (0..points.len()).filter(|&place| needs_more(&found[place])).collect();
             let anew = at_once(*parts, &again, |&place| measured(points[place], *parts));
             again.into_iter().zip(anew).for_each(|(place, anew)| found[place] = anew);

@@ -217,7 +217,7 @@ fn what_is_odd_is_told_with_its_line_and_the_stone_opens() {
     assert_eq!(odd("n T", "n T n U"), "line 13: a facet has two names, 'T' and 'U'; the second is used");
     assert_eq!(odd("g 96 0.0\r\n", ""), "the file names no index gear; one of 96 teeth is assumed");
     assert_eq!(odd("I 1.76\r\n", ""), "the file names no index of refraction; 1.54 is assumed");
-    assert!(odd("I 1.76", "I 0.5").ends_with("the index 0.5 must be from 1 (vacuum) to 5; 1.54 is assumed"));
+    assert!(odd("I 1.76", "I 0.5").ends_with("the index 0.5 must be from 1 (air) to 6; 1.54 is assumed"));
     assert_eq!(
         odd("a 35.5 0.8", "a 35.5\r\na 35.5 0.8"),
         "line 12: 'a 35.5' has no angle and distance, and is left out"

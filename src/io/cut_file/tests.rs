@@ -345,11 +345,11 @@ fn what_is_out_of_range_is_told_with_its_line() {
     );
     assert_message(
         &with("\"diamond\"", "inf"),
-        "x.toml:4: material: the index inf must be from 1 (vacuum) to 5",
+        "x.toml:4: material: the index inf must be from 1 (air) to 6",
     );
     assert_message(
         &with("\"diamond\"", "{ index = 0.5 }"),
-        "x.toml:4: index: the index 0.5 must be from 1 (vacuum) to 5",
+        "x.toml:4: index: the index 0.5 must be from 1 (air) to 6",
     );
     assert_message(
         &with("name", "diameter_mm = 0\nname"),

@@ -74,6 +74,7 @@ impl<'a> ReportedStone<'a> {
             let measures = light_measures(&viewing, settings, renderer, watch, tell)?;
             Ok(ReportedLight::Measures(Box::new(measures)))
         })?;
+        renderer.drop_beams();
         step("tilt")?;
         let tilts = shares.step(SHARES[2], |watch| {
             by_beams.then(|| TiltCurves::of(&viewing, parts >= ALIKE_PARTS, watch)).transpose()

@@ -18,6 +18,10 @@ const STEP: i32 = 5;
 /// shows as the width of the curves.
 const UNRESOLVED: [f64; 2] = [1e-2, 2e-2];
 
+/// The parts of the memory of beams of which one belongs to each tilt, so that even a stone that keeps its light for long has
+/// its curves in seconds.
+const PARTS_OF_MEMORY: usize = 4;
+
 /// The size of the plots, in units of their drawing.
 const SIZE: (u32, u32) = (1000, 400);
 
@@ -45,7 +49,7 @@ impl TiltCurves {
             polarised: viewing.polarised,
         };
         let mut points = vec![];
-        sweep.run(0..sweep.count(), watch, |_, found| {
+        sweep.run_in(PARTS_OF_MEMORY, 0..sweep.count(), watch, |_, found| {
             points.push(found.ok().map(|stone| stone.measures));
             Ok::<_, Failure>(())
         })?;

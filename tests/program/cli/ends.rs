@@ -255,6 +255,14 @@ fn designs_that_are_appraised_side_by_side_share_the_memory_of_one_however_many_
     }
 }
 
+/// At an index of 6 each picture and each tilt would take as many beams as its memory holds. The beams of former pictures make room.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_report_on_a_stone_that_keeps_its_light_holds_the_beams_of_one_picture_at_a_time() {
+    let held = held(&Desk::new(), "report princess --material 6 --out report.pdf", "2");
+    assert!((10.0..560.0).contains(&held), "{held} MiB");
+}
+
 /// Returns the most memory that a command holds with a number of threads, in MiB; it must end well.
 #[cfg(target_os = "linux")]
 fn held(desk: &Desk, line: &str, threads: &str) -> f64 {

@@ -32,7 +32,7 @@ fn dispersions() -> impl Strategy<Value = Dispersion> {
         (index(), 0.0..0.1).prop_map(|(a, b)| Dispersion::Cauchy { a, b }),
         (index(), 10.0..1e3).prop_map(|(n_d, v_d)| Dispersion::Abbe { n_d, v_d }),
     ];
-    laws.prop_filter("an index from 1 to 5", |law| {
+    laws.prop_filter("an index of a material", |law| {
         MaterialRef::Custom(Box::new(custom(law.clone()))).check().is_ok()
     })
 }
