@@ -2,12 +2,15 @@
 //!
 //! `BRILLIANTEER_RECORD=before.txt cargo test --release --test program cli::recorder -- --ignored` writes the file where there is none, and
 //! otherwise fails with the lines that differ. Hashes hold on one machine only: other processors round sines differently.
+//! The seconds that each command took are written beside it, to `before.txt.seconds` or, when it is compared, to
+//! `before.txt.seconds-now`.
 
 use super::desk::*;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
+use std::time::Instant;
 
 const DESIGNS: [&str; 10] = [
     "tolkowsky",
@@ -20,6 +23,34 @@ const DESIGNS: [&str; 10] = [
     "cube.toml",
     "slanted.toml",
     "tilted.glb",
+];
+const COMMANDS: [&str; 26] = [
+    "",
+    "edit",
+    "export",
+    "render",
+    "spin",
+    "refraction-map",
+    "refraction-template",
+    "refraction-import",
+    "liquid-glass",
+    "measure",
+    "sweep",
+    "gradient",
+    "optimise",
+    "info",
+    "report",
+    "sheet",
+    "retarget",
+    "yield",
+    "convert",
+    "bench",
+    "materials",
+    "cuts",
+    "scenes",
+    "scopes",
+    "lights",
+    "completions",
 ];
 const SCENES: [&str; 4] = ["ring", "parcel", "free-diamond", "wavy-plate"];
 const MESHES: [&str; 2] = ["stone.obj", "heart.stl"];
@@ -64,12 +95,7 @@ fn record(desk: &Desk, line: &str, record: &mut String) {
 
 /// Returns the commands whose outputs are recorded.
 fn lines() -> Vec<String> {
-    let mut lines: Vec<String> = vec![];
-    for command in
-        ["", "export", "render", "spin", "refraction-map", "liquid-glass", "measure", "info", "convert"]
-    {
-        lines.push(format!("{command} --help"));
-    }
+    let mut lines: Vec<String> = COMMANDS.into_iter().map(|command| format!("{command} --help")).collect();
     for list in ["cuts", "materials", "scenes", "lights", "scopes"] {
         lines.extend([list.to_owned(), format!("{list} --json")]);
     }
@@ -87,6 +113,15 @@ fn lines() -> Vec<String> {
             format!("render {design} --size 48x32 --samples 2 --tracer ray --tilt 9 --turn 20 --head 12 --background page --out {{}}/a.png"),
             format!("render {design} --size 40 --samples 1 --light office --overlay wireframe,facets --exposure 0.5 --background light --out {{}}/a.png"),
             format!("render {design} --size 40 --samples 1 --strength 0.5 --out {{}}/a.exr"),
+            format!("measure {design} --measures --json --unresolved 0.03"),
+            format!("sheet {design} --json"),
+            format!("sheet {design} --out {{}}/sheet.pdf"),
+            format!("sheet {design} --out {{}}/sheet.svg"),
+            format!("report {design} --date today --pixels 48 --out {{}}/report.pdf"),
+            format!("gradient {design} --unresolved 0.02 --json"),
+            format!("sweep {design} --over tilt=-10:10:10 --unresolved 0.05 --out {{}}/sweep.csv"),
+            format!("retarget {design} --material sapphire --rule tangent-ratio --no-light --json --out {{}}/a.toml"),
+            format!("yield {design} --rough 6x7x8 --json"),
         ]);
         for format in ["toml", "asc", "gem", "gcs", "obj", "stl", "ply", "glb"] {
             lines.push(format!("convert {design} {{}}/converted.{format}"));
@@ -119,6 +154,16 @@ fn lines() -> Vec<String> {
             "render ring --tracer gpu --size 32 --samples 1 --out {}/a.png",
             "render tolkowsky --tracer beam --perspective 9 --size 32 --out {}",
             "render missing.toml --out {}",
+            "info stone.obj brick.asc missing.toml tolkowsky --json",
+            "report tolkowsky modern-ideal --date today --pixels 48 --out {}/report.html",
+            "gradient tolkowsky --by crown_angle --of return-cos2 --unresolved 0.02",
+            "sweep tolkowsky --over crown_angle=33:36:1 --over material=diamond,ruby --unresolved 0.05 --out {}/sweep.jsonl --plot {}/plot.svg",
+            "sweep tolkowsky --over pavilion_angle=40:41.5:0.5 --unresolved 0.05 --out {}/sweep.parquet",
+            "optimise tolkowsky --raise return-cos2=1 --vary crown_angle=32:36 --unresolved 0.05 --scatter 4 --climbs 1 --seconds 600 --json --out {}/better.toml",
+            "refraction-template {}/template.png --size 64",
+            "completions bash",
+            "man",
+            "man render",
             "render tolkowsky --bloom 0 --no-jitter --unpolarised --unadapted --size 48 --samples 3 --out {}/a.png",
         ]
         .map(String::from),
@@ -139,12 +184,19 @@ fn everything_is_as_it_was() {
         desk.run(&format!("convert {design} {file}"));
     }
     desk.write("heart.stl", heart());
-    let mut now = String::new();
-    lines().iter().for_each(|line| record(&desk, line, &mut now));
+    let (mut now, mut seconds) = (String::new(), String::new());
+    for line in lines() {
+        let start = Instant::now();
+        record(&desk, &line, &mut now);
+        let _ = writeln!(seconds, "{:.3} {line}", start.elapsed().as_secs_f64());
+    }
+    let beside = |ending: &str| Path::new(&path).with_added_extension(ending);
     let Ok(before) = std::fs::read_to_string(&path) else {
+        std::fs::write(beside("seconds"), &seconds).unwrap();
         std::fs::write(&path, &now).unwrap();
         return;
     };
+    std::fs::write(beside("seconds-now"), &seconds).unwrap();
     let [before, now] = [&before, &now].map(|text| text.lines().collect::<std::collections::BTreeSet<_>>());
     let gone: Vec<_> = before.difference(&now).collect();
     let new: Vec<_> = now.difference(&before).collect();
