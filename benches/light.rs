@@ -13,7 +13,10 @@ use brillianteer::scene::{
 };
 use brillianteer::trace::environment::{Environment, EnvironmentMap};
 use brillianteer::trace::sampling::{LitScene, Sampling};
-use brillianteer::trace::{Stopped, beam, ray, unwatched};
+use brillianteer::{
+    base::{Stopped, unwatched},
+    trace::{beam, ray},
+};
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;
 use std::hint::black_box;

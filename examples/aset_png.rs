@@ -5,7 +5,7 @@ use brillianteer::io::{WriteError, cut_file, write_png};
 use brillianteer::optics::line;
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Scope, Specimen, View};
-use brillianteer::trace::{beam, unwatched};
+use brillianteer::{base::unwatched, trace::beam};
 use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -42,5 +42,7 @@ pub mod scene;
 pub mod search;
 pub mod trace;
 
+/// What every room shares: work that can be watched and stopped, and faults in files.
+pub use brillianteer_base as base;
 pub use glam;
 pub use render::measure;

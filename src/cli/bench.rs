@@ -16,10 +16,11 @@ use crate::render::{
     ScopeProduct, Steps, Surroundings, USUAL_BOUNCES, Wanted,
 };
 use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View, Viewpoint};
+use crate::trace::beam;
 use crate::trace::environment::{EnvironmentMap, Lighting};
 use crate::trace::ray::{Camera, RayOptions, StoneTracer};
 use crate::trace::sampling::SamplePass;
-use crate::trace::{beam, unwatched};
+use brillianteer_base::unwatched;
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};

@@ -17,7 +17,7 @@ use crate::scene::Specimen;
 use crate::search::{
     DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
 };
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use clap::Args;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -150,7 +150,8 @@ impl OptimiseArguments {
             error if error.is_of_design() => Failure::Input(format!("{path}: {error}")),
             error => Failure::Usage(format!("{path}: {error}")),
         };
-        let search = DesignSearch::new(&specimen.design, &goal, self.options(), &crate::trace::unwatched);
+        let search =
+            DesignSearch::new(&specimen.design, &goal, self.options(), &brillianteer_base::unwatched);
         let search = search.map_err(refused)?;
         if self.goal.is_none() && self.raise.is_empty() && self.lower.is_empty() {
             say(

@@ -15,8 +15,8 @@ use crate::render::{
     mixture_note,
 };
 use crate::scene::{Film, Mipmap, Scene, View, Viewpoint};
-use crate::trace::Watch;
 use crate::trace::ray::{self, Camera, RayOptions};
+use brillianteer_base::Watch;
 use glam::DVec2;
 use std::cell::RefCell;
 use std::path::Path;

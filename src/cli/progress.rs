@@ -122,7 +122,7 @@ impl WorkProgress {
         Self { bar, lines }
     }
 
-    /// Returns a [`crate::trace::Watch`] that shows the progress and never stops the work.
+    /// Returns a [`brillianteer_base::Watch`] that shows the progress and never stops the work.
     pub fn watch(&self) -> impl Fn(f64) -> ControlFlow<()> + Sync + '_ {
         |done| {
             self.bar.set_position((done * 1000.0) as u64);

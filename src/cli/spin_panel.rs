@@ -13,7 +13,7 @@ use crate::measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use crate::scene::Lean;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 
 /// The least width of pictures with curves, in pixels.
 pub const LEAST_PLOTTED: u32 = 320;

@@ -13,7 +13,7 @@ use crate::optics::line;
 use crate::picture::{Background, Caption, Scoped};
 use crate::render::{Card, Renderer};
 use crate::scene::{Medium, Scene, Viewpoint};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;

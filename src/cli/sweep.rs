@@ -12,7 +12,7 @@ use crate::io::{Failure, library};
 use crate::measure::{MeasureName, PatternSettings, ROCK_DEG, pupil_deg};
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
 use crate::scene::Specimen;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use clap::Args;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

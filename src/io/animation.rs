@@ -151,7 +151,7 @@ fn opened<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::Stopped;
+    use brillianteer_base::Stopped;
 
     fn frames() -> Frames {
         Frames { count: 5, size: (20, 16), delay_ms: 40, transparent: true, exact: vec![] }

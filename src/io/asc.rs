@@ -7,10 +7,10 @@
 use super::cutters::{self, Gear, WarningList};
 use super::design_file::ImportedDesign;
 use super::encoding::{self, is_padding};
-use super::file_error::Fault;
 use super::numbers::{NumberReader, Token};
 use super::text::check_size;
 use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers};
+use brillianteer_base::Fault;
 use std::borrow::Cow;
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::overwriting::{self, Existing};
 use super::standard::is_standard;
-use crate::trace::Stopped;
+use brillianteer_base::Stopped;
 use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::fs::{File, OpenOptions};

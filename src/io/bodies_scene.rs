@@ -1,7 +1,6 @@
 //! Makes a scene of the bodies of a mesh, each where it lies in the file.
 
 use super::design_file::ImportedDesign;
-use super::file_error::FileError;
 use super::mesh::{self, read_bodies, upward};
 use super::mesh_options::{MeshOptions, MeshPart};
 use super::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
@@ -10,6 +9,7 @@ use crate::cut::from_mesh::Up;
 use crate::cut::{MaterialRef, Size, is_printable};
 use crate::math::Pose;
 use crate::scene::{MOST_STONES, Movement};
+use brillianteer_base::FileError;
 use glam::{DQuat, DVec3};
 use std::path::Path;
 

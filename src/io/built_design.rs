@@ -5,9 +5,11 @@ use super::design_file::{self, ImportedDesign};
 use super::library::{self, CUTS, SCENES};
 use super::mesh::MeshBody;
 use super::mesh_options::MeshOptions;
-use super::{Failure, FileError, is_standard, nearest, scene_file};
+use super::{Failure, is_standard, scene_file};
 use crate::cut::from_mesh::FacetError;
 use crate::scene::Specimen;
+use brillianteer_base::FileError;
+use brillianteer_base::nearest;
 use std::ops::Deref;
 use std::path::Path;
 

@@ -7,11 +7,11 @@
 
 use std::path::Path;
 
-use super::file_error::{Fault, FileError};
 use super::text;
 use super::toml_format::check_format;
 use super::toml_text::{KeyLines, TomlText};
 use crate::cut::{Cut, Design, FAMILIES};
+use brillianteer_base::{Fault, FileError};
 use family_form::FamilyForm;
 use form::DesignForm;
 

@@ -3,7 +3,6 @@
 
 use super::cut_file;
 use super::cutters::WarningList;
-use super::file_error::{Fault, FileError};
 use super::mesh::{self, FINENESS, MaterialHint, Stated, stated_in_stl};
 use super::mesh_options::MeshOptions;
 use super::{Failure, asc, foreign, gcs, gem, write as write_whole};
@@ -11,6 +10,7 @@ use super::{WriteError, text};
 use super::{write_glb, write_obj, write_ply, write_stl};
 use crate::cut::{Design, MaterialRef};
 use crate::scene::{Body, Specimen};
+use brillianteer_base::{Fault, FileError};
 use std::path::Path;
 
 mod encoded;

@@ -26,7 +26,7 @@ pub(in crate::io) use viewing::note;
 use super::{Failure, WriteError, is_standard, write};
 use crate::picture::{Picture, Scoped};
 use crate::render::Renderer;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use pictures::Pictures;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

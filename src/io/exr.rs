@@ -3,7 +3,7 @@
 use super::atomic::{WriteError, write};
 use crate::picture::{Layer, paint};
 use crate::scene::Film;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use exr::block::writer::{ChunksWriter, ParallelBlocksCompressor};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::{Error, UnitResult};

@@ -1,9 +1,9 @@
 //! The reasons why work that produces files was not done.
 
 use super::atomic::WriteError;
-use super::file_error::{FileError, NameOrFileError};
 use crate::render::{RenderError, Unfit};
-use crate::trace::Stopped;
+use brillianteer_base::Stopped;
+use brillianteer_base::{FileError, NameOrFileError};
 
 /// The reason why a request was not carried out in full. Files that were finished before stay.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

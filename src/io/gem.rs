@@ -5,10 +5,10 @@
 
 use super::cutters::{self, Gear, TierPiece, WarningList};
 use super::design_file::ImportedDesign;
-use super::file_error::Fault;
 use super::text::check_size;
 use crate::cut::{MAX_PLANES, Tiers};
 use crate::math::Plane;
+use brillianteer_base::Fault;
 use cursor::Cursor;
 use glam::DVec3;
 

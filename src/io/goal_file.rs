@@ -1,10 +1,10 @@
 //! Reads and writes goal files: TOML with the measures of a search, the numbers of the design that may change, and
 //! the limits.
 
-use super::file_error::{Fault, FileError};
 use super::toml_text::TomlText;
 use super::{Failure, WriteError, text, write as write_whole};
 use crate::search::Goal;
+use brillianteer_base::{Fault, FileError};
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes.

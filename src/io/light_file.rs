@@ -1,9 +1,9 @@
 //! Reads and writes light files: TOML with a name and the sources of light.
 
-use super::file_error::{Fault, FileError};
 use super::text;
 use super::toml_text::TomlText;
 use crate::scene::{Light, LightError};
+use brillianteer_base::{Fault, FileError};
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes.

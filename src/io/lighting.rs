@@ -1,10 +1,12 @@
 //! Loads the light of a scene: one that comes with the program, a light file, or a panorama.
 
-use super::{Failure, NameOrFileError, light_file, nearest, panorama};
+use super::{Failure, light_file, panorama};
 use crate::scene::{LIGHTS, Light, Panorama, light};
-use crate::trace::Watch;
 use crate::trace::environment::EnvironmentMap;
 pub use crate::trace::environment::Lighting;
+use brillianteer_base::NameOrFileError;
+use brillianteer_base::Watch;
+use brillianteer_base::nearest;
 use std::path::PathBuf;
 
 impl Lighting {
@@ -83,7 +85,7 @@ mod tests {
     use super::*;
     use crate::io::write_rgba_png;
     use crate::scene::World;
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
     use std::ops::ControlFlow;
     use std::sync::atomic::{AtomicUsize, Ordering};
 

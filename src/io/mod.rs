@@ -25,7 +25,6 @@ pub mod export;
 #[cfg(feature = "exr")]
 mod exr;
 mod failure;
-mod file_error;
 #[cfg(feature = "interchange")]
 mod foreign;
 #[cfg(feature = "interchange")]
@@ -75,7 +74,6 @@ pub use drawing_png::{DrawingError, note_of_letters, rasterize, rasterize_clear,
 #[cfg(feature = "exr")]
 pub use exr::write_exr;
 pub use failure::Failure;
-pub use file_error::{Fault, FileError, NameOrFileError};
 pub use letters::SystemFont;
 #[cfg(feature = "interchange")]
 pub use mesh::{write_glb, write_obj, write_ply, write_stl};
@@ -87,5 +85,4 @@ pub use picture_file::{Finish, with_cover, write_rgba_png};
 pub use png::{MOST_PIXELS, PngFile, write_png};
 pub use standard::{STANDARD, is_standard};
 pub use stored_light::StoredLight;
-pub(crate) use text::nearest;
 pub use toml_comments::has_comments;

@@ -1,7 +1,7 @@
 //! Numbers in text that people and their programs wrote: with the decimal comma of a country, the signs of a printed
 //! manual, or the digits of a wide script.
 
-use super::file_error::Fault;
+use brillianteer_base::Fault;
 use std::borrow::Cow;
 
 /// The kind of a token: a number in one of its spellings, or a word.

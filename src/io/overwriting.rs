@@ -178,7 +178,7 @@ mod tests {
         }
         let failed = write(&path, |file| {
             file.write_all(b"half").map_err(|e| WriteError::io(&path, e))?;
-            Err(WriteError::Stopped(crate::trace::Stopped))
+            Err(WriteError::Stopped(brillianteer_base::Stopped))
         });
         assert!(failed.is_err() && std::fs::read_to_string(&other).unwrap().starts_with("new again"));
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);

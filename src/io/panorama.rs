@@ -10,9 +10,9 @@ mod radiance;
 mod raster;
 mod shared;
 
-use super::file_error::{Fault, FileError};
 use super::text::unreadable;
 use crate::scene::Panorama;
+use brillianteer_base::{Fault, FileError};
 use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;

@@ -7,9 +7,9 @@ use super::png::{PngFile, encoder};
 use super::stored_light::{MOST_HELD, StoredLight};
 use crate::picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows, fxaa};
 use crate::trace::sampling::LitScene;
-use crate::trace::{Stopped, Watch};
 #[cfg(feature = "exr")]
 use ::exr::{math::Vec2, meta::attribute::Chromaticities};
+use brillianteer_base::{Stopped, Watch};
 use std::path::Path;
 
 /// The primaries and the white of sRGB, as CIE x and y (ITU-R BT.709-6, §1).
@@ -182,8 +182,8 @@ pub(super) fn unfit(pixels: usize, (width, height): (u32, u32)) -> std::io::Erro
 mod tests {
     use super::*;
     use crate::picture::{Linear, develop};
-    use crate::trace::unwatched;
     use ::exr::prelude::{MetaData, read_first_rgba_layer_from_file};
+    use brillianteer_base::unwatched;
 
     /// A picture that is not made of whole tiles.
     fn picture() -> Linear {

@@ -3,7 +3,6 @@
 //! Lengths are in mm, angles in degrees. Every error names file, line and key, and says what was expected.
 
 use super::background::BackgroundRef;
-use super::file_error::{Fault, FileError};
 use super::mesh_options::MeshPart;
 use super::text;
 use super::toml_format::check_format;
@@ -11,6 +10,7 @@ use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
 use crate::optics::Metal;
 use crate::scene::{LIGHTS, Layout, MOST_STONES, Movement, Pose, light};
+use brillianteer_base::{Fault, FileError};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
 pub use ring_entry::RingEntry;

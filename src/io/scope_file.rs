@@ -1,9 +1,9 @@
 //! Reads and writes scope files: TOML with a name, and bands of colour with the elevation at which each begins.
 
-use super::file_error::{Fault, FileError};
 use super::text;
 use super::toml_text::TomlText;
 use crate::scene::{Scope, ScopeError};
+use brillianteer_base::{Fault, FileError};
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes.

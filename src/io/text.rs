@@ -1,8 +1,8 @@
 //! Reads text that people wrote: of a sane size, in UTF-8, or with an error that says what is wrong.
 
 use super::encoding::{in_utf8, with_line_feeds};
-use super::file_error::Fault;
 use super::standard::{self, is_standard};
+use brillianteer_base::Fault;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -82,17 +82,6 @@ pub(super) fn line_after(text: &[u8]) -> usize {
     1 + text.iter().filter(|byte| **byte == b'\n').count()
 }
 
-/// Returns the known name that is most like an unknown one, if a few slips of typing make the one from the other.
-pub(crate) fn nearest<'k>(asked: &str, known: &[&'k str]) -> Option<&'k str> {
-    // A slip in every third letter is still a slip; with more, it is another word.
-    let letters = asked.chars().count();
-    let most = letters.div_ceil(3).min(3);
-    let slips = |name: &&str| strsim::damerau_levenshtein(asked, name);
-    // Names of very different lengths are not compared, since the unknown name may be as long as a file.
-    let alike = known.iter().copied().filter(|name| name.chars().count().abs_diff(letters) <= most);
-    alike.min_by_key(slips).filter(|name| slips(name) <= most)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -114,17 +103,5 @@ mod tests {
             assert_eq!(utf8(bytes.clone()), Ok(text.to_owned()), "{bytes:?}");
         }
         assert_eq!(utf8(b"a\nb \xfc".to_vec()).unwrap_err().line, Some(2));
-    }
-
-    #[test]
-    fn the_nearest_name_is_one_that_a_few_slips_make_of_what_was_asked() {
-        let known = ["row", "ring", "parcel", "round_brilliant"];
-        let pairs = [("rig", Some("ring")), ("raw", Some("row")), ("prcael", Some("parcel"))];
-        for (asked, near) in
-            pairs.into_iter().chain([("round_brlint", Some("round_brilliant")), ("pin", None)])
-        {
-            assert_eq!(nearest(asked, &known), near, "{asked}");
-        }
-        assert_eq!((nearest("round", &known), nearest("", &known), nearest("row", &[])), (None, None, None));
     }
 }

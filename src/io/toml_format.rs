@@ -1,7 +1,7 @@
 //! The number of the format that cut files and scene files are written in, which their key `format` gives.
 
-use super::file_error::Fault;
 use super::toml_text::TomlText;
+use brillianteer_base::Fault;
 
 /// The number of the format that this program reads and writes.
 pub const FORMAT: i64 = 1;

@@ -10,7 +10,7 @@ use crate::math::Polytope;
 use crate::math::random_bits::{GAMMA, mixed, unit};
 use crate::trace::beam::SummedBeams;
 use crate::trace::tail::Tail;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::DVec2;
 use rayon::prelude::*;
 

@@ -7,7 +7,7 @@
 use super::interval::Interval;
 use crate::math::{Affine, area, clip};
 use crate::trace::beam::Beams;
-use crate::trace::{Stopped, Watch, go_on};
+use brillianteer_base::{Stopped, Watch, go_on};
 use glam::{DMat2, DVec2, IVec2};
 
 /// The least side of a cell, girdle radii, which bounds the number of cells. In stones of more than 72 mm, cells are

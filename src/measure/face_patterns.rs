@@ -13,7 +13,7 @@ use super::virtual_facets::VirtualFacets;
 use crate::cut::FacetZones;
 use crate::math::Polytope;
 use crate::trace::beam::{Beam, Beams};
-use crate::trace::{Stopped, Watch, go_on};
+use brillianteer_base::{Stopped, Watch, go_on};
 use serde::Serialize;
 
 /// The measures of the pattern on the face.

@@ -11,7 +11,7 @@ use crate::cut::Outline;
 use crate::math::span;
 use crate::scene::{Medium, Side, Stone, View, elevation_deg};
 use crate::trace::beam::{BeamOptions, Beams, trace};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_4;
 

@@ -14,7 +14,7 @@ use super::scintillation::Scintillation;
 use crate::math::Polytope;
 use crate::scene::DomeLight;
 use crate::trace::beam::{Beam, Beams};
-use crate::trace::{Stopped, Watch, go_on};
+use brillianteer_base::{Stopped, Watch, go_on};
 use serde::{Deserialize, Serialize};
 
 /// The angle in degrees that an eye's pupil of 3.3 mm fills at 250 mm. Colours that spread over less enter the eye

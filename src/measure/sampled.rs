@@ -11,7 +11,7 @@ use crate::trace::ScopeShot;
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
 use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::DVec2;
 use rayon::prelude::*;
 

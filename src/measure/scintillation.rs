@@ -7,7 +7,7 @@ use super::interval::Interval;
 use super::pattern_settings::PatternSettings;
 use crate::scene::View;
 use crate::trace::beam::Beams;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DQuat, DVec2};
 use serde::Serialize;
 

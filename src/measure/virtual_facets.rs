@@ -8,7 +8,7 @@ use super::interval::Interval;
 use crate::math::random_bits::{GAMMA, mixed};
 use crate::math::{Basis, Plane, Polytope};
 use crate::trace::beam::Beams;
-use crate::trace::{Stopped, Watch, go_on};
+use brillianteer_base::{Stopped, Watch, go_on};
 use glam::{DMat2, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
@@ -138,7 +138,7 @@ mod tests {
     use crate::math::Plane;
     use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace};
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
 
     fn stone() -> Polytope {
         let planes: Vec<Plane> = TOLKOWSKY.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();

@@ -6,6 +6,7 @@ use super::dispersion::{Dispersion, DispersionError};
 use super::illuminant::Illuminant;
 use super::strata::{Stratum, strata};
 use super::{gems, glasses};
+use brillianteer_base::slips;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -296,10 +297,8 @@ fn unknown(name: &str) -> UnknownMaterial {
     if !of_kind.is_empty() {
         return UnknownMaterial { name: name.to_owned(), of_kind, near: vec![] };
     }
-    let mut near: Vec<(usize, &str)> =
-        materials().iter().map(|m| (strsim::levenshtein(&asked, &key(&m.name)), m.name.as_str())).collect();
-    // Up to one slip in three letters is taken for a misspelling; with more slips, the text is another word.
-    near.retain(|&(slips, _)| slips <= asked.chars().count().div_ceil(3));
+    let near = materials().iter().filter_map(|m| Some((slips(&asked, &key(&m.name))?, m.name.as_str())));
+    let mut near: Vec<(usize, &str)> = near.collect();
     near.sort_by_key(|&(slips, _)| slips);
     UnknownMaterial { name: name.to_owned(), of_kind, near: near.into_iter().map(|(_, name)| name).collect() }
 }

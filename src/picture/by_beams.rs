@@ -12,7 +12,7 @@ use crate::optics::Stratum;
 use crate::scene::{Instance, Medium, View};
 use crate::trace::beam::{self, Beam, Beams};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass, colour};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DAffine2, DMat2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;

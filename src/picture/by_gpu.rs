@@ -2,8 +2,9 @@
 
 use super::Rows;
 use crate::scene::Glare;
+use crate::trace::ScopeShot;
 use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
-use crate::trace::{ScopeShot, Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 
 /// Traces a picture on a graphics card, each pixel by a regular grid of rays. It calls `each` as
 /// [`by_rays::trace`](super::by_rays::trace()) does, with the same channels.

@@ -2,8 +2,9 @@
 
 use super::Rows;
 use crate::scene::Glare;
+use crate::trace::ScopeShot;
 use crate::trace::ray::{Camera, Exit, StoneTracer};
-use crate::trace::{ScopeShot, Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 

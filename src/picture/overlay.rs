@@ -9,9 +9,10 @@ mod wireframe;
 use self::scale::viridis;
 use self::wireframe::Wires;
 use super::NameError;
+use crate::trace::DispersedRay;
 use crate::trace::ray::{Exit, MeetingRay, ProbeRay, SceneProbe};
 use crate::trace::sampling::LitScene;
-use crate::trace::{DispersedRay, Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use rayon::prelude::*;
 use std::str::FromStr;
 

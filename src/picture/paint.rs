@@ -4,7 +4,7 @@ use super::Rows;
 use super::layer::Layer;
 use crate::math::span;
 use crate::scene::Film;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use std::ops::Range;

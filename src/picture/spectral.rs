@@ -3,7 +3,7 @@
 use super::Linear;
 use crate::optics::Strata;
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use std::ops::Range;
 
 /// The light that a picture does not show, as means over the area that the stones cover.

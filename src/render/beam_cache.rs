@@ -3,7 +3,7 @@
 use crate::math::Polytope;
 use crate::scene::{Body, Medium, View};
 use crate::trace::beam::{self, BeamOptions, Beams};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use std::sync::Arc;
 
 /// The most sets of beams that are kept.
@@ -107,7 +107,7 @@ impl BeamCache {
 mod tests {
     use super::*;
     use crate::math::Plane;
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
     use glam::DVec3;
 
     fn cube() -> Arc<Body> {

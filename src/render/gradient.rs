@@ -6,7 +6,7 @@ use crate::cut::{Cut, Design, ScaleError, ScaledSide, SideSlope, Unit};
 use crate::math::{Facet, Plane};
 use crate::measure::{MeasureDerivatives, MeasureName};
 use crate::scene::{Specimen, SpecimenError, Stone};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use glam::DVec3;
 use std::collections::HashMap;
 

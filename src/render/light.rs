@@ -7,13 +7,13 @@ use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
 use crate::optics::Strata;
 use crate::picture::spectral::{EachRow, Remainder, expose_rows, seen};
 use crate::picture::{ByBeams, Linear};
-use crate::trace::Watch;
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 use crate::trace::ray::ByRays;
 use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 #[cfg(feature = "gpu")]
 use crate::trace::sampling::{RadiancePixel, SamplePass};
+use brillianteer_base::Watch;
 use std::ops::Range;
 
 /// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass and one

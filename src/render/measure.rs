@@ -12,7 +12,7 @@ use crate::scene::{
     ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,
     Viewpoint,
 };
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use std::sync::Arc;
 
 /// The options by which a design is measured.

@@ -11,7 +11,7 @@ use crate::picture::{Carried, Linear, RefractionMap, Rows};
 use crate::trace::beam::Beams;
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::GpuError;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use std::sync::Arc;
 
 /// Does jobs. It keeps the beams of the last ones, and no longer uses a card that was lost.

@@ -8,8 +8,9 @@ use crate::math::{Polytope, SolidRef};
 use crate::measure::{self, Figures, LightMeasures, Scintillation, measured, rocked_views};
 use crate::picture::{Layer, Rows, by_rays, paint};
 use crate::scene::{Body, Medium, Scope};
+use crate::trace::ScopeShot;
 use crate::trace::beam::{self, BeamOptions, Beams, SumOptions};
-use crate::trace::{ScopeShot, Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::DVec2;
 use std::sync::Arc;
 

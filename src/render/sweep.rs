@@ -11,7 +11,7 @@ use crate::cut::{
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use crate::optics::{DispersionError, INDICES, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use std::fmt;
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 
 use super::renderer::RenderError;
 use super::sweep::{Sweep, SweepError, SweptStone};
-use crate::trace::{Stopped, Watch, at_once};
+use brillianteer_base::{Stopped, Watch, at_once};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The number of points that are measured before they are handed out.

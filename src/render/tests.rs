@@ -13,7 +13,7 @@ use crate::scene::{
     Scope, Specimen, View,
 };
 use crate::trace::environment::{EnvironmentMap, Lighting};
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;

@@ -11,7 +11,7 @@ use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
 use crate::scene::{Specimen, Stone};
-use crate::trace::{Watch, at_once};
+use brillianteer_base::{Watch, at_once};
 
 /// The part of a number's range by which it is changed for the derivatives of the geometry.
 const GEOMETRY_STEP: f64 = 1e-4;

@@ -11,7 +11,7 @@ use crate::measure::{Interval, MeasureName, MeasureSettings};
 use crate::optics::line;
 use crate::render::Sweep;
 use crate::scene::{Specimen, Viewpoint};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use std::cmp::Ordering;
 
 /// A measure that the goal does not weigh, face up and in the design's own material.

@@ -10,7 +10,7 @@ use super::objective::Objective;
 use super::outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 use crate::cut::Design;
 use crate::scene::Specimen;
-use crate::trace::{Watch, at_once};
+use brillianteer_base::{Watch, at_once};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 

@@ -11,7 +11,7 @@ use crate::measure::MeasureSettings;
 use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
 use crate::scene::{DomeLight, Viewpoint};
-use crate::trace::{Stopped, unwatched};
+use brillianteer_base::{Stopped, unwatched};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,7 +1,6 @@
 //! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share Fresnel's equations, the
 //! stone, the view and the guess of the next facet, which each of them verifies in its own way.
 
-mod at_once;
 pub mod beam;
 mod dispersed_ray;
 pub mod environment;
@@ -17,29 +16,5 @@ mod scope_shot;
 pub mod shared_tail;
 pub mod tail;
 
-pub use at_once::at_once;
 pub use dispersed_ray::DispersedRay;
 pub use scope_shot::ScopeShot;
-use std::ops::ControlFlow;
-
-/// A callback of long work. It is called from time to time with the part that is done, 0 to 1, and stops the work by
-/// returning `Break`.
-pub type Watch<'a> = &'a (dyn Fn(f64) -> ControlFlow<()> + Sync);
-
-/// The [`Watch`] that never stops the work.
-pub fn unwatched(_done: f64) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
-/// Calls a watch with the part that is done, 0 to 1.
-///
-/// # Errors
-/// Fails where the watch asks to stop.
-pub fn go_on(watch: Watch, done: f64) -> Result<(), Stopped> {
-    if watch(done).is_break() { Err(Stopped) } else { Ok(()) }
-}
-
-/// The error of work that its [`Watch`] has stopped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("stopped before it was done")]
-pub struct Stopped;

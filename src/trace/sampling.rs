@@ -1,11 +1,12 @@
 //! The subject of a picture under light, and the sample passes of the picture, which are the same for every tracer.
 
+use super::DispersedRay;
 use super::environment::Environment;
 use super::places::{place_in_pixel, stretch_of_pixel};
-use super::{DispersedRay, Stopped, Watch};
 use crate::optics::{SAMPLED_NM, Strata, Stratum};
 use crate::scene::{Film, Instance, Medium, Scene, View};
 use crate::trace::ray::{RayOptions, Roulette};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
 use num_complex::Complex64;
 use std::ops::Range;

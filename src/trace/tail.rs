@@ -186,7 +186,7 @@ mod tests {
     use crate::math::{Plane, contains};
     use crate::scene::{ASET_CONE, Backing, Medium, View};
     use crate::trace::beam::{BeamOptions, SumOptions, sum_up, trace};
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
 
     fn brilliant() -> Polytope {
         let facets = TOLKOWSKY.facets().unwrap();

@@ -13,7 +13,7 @@ use brillianteer::io::cut_file;
 use brillianteer::math::Plane;
 use brillianteer::measure::{Figures, by_beams};
 use brillianteer::scene::{ASET_CONE, Backing, Medium, Scope, Stone, View};
-use brillianteer::trace::{beam, unwatched};
+use brillianteer::{base::unwatched, trace::beam};
 use glam::DVec3;
 use proptest::prelude::*;
 use std::io::Write;

@@ -5,7 +5,10 @@ use brillianteer::math::SolidRef;
 use brillianteer::scene::{Film, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel};
 use brillianteer::trace::ray::{Camera, Exit, MeetingRay, RayOptions, StoneTracer};
-use brillianteer::trace::{DispersedRay, ScopeShot, Stopped, unwatched};
+use brillianteer::{
+    base::{Stopped, unwatched},
+    trace::{DispersedRay, ScopeShot},
+};
 use glam::DVec2;
 
 pub const SIZE: u32 = 96;

@@ -1,5 +1,6 @@
 //! Takes pictures under light by every tracer.
 
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::math::Polytope;
 use brillianteer::optics::{Strata, material};
 use brillianteer::picture::spectral::{Remainder, expose, seen};
@@ -11,7 +12,6 @@ use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 use brillianteer::trace::ray::{ByRays, RayOptions};
 use brillianteer::trace::sampling::{LitScene, Sampling};
-use brillianteer::trace::{Stopped, unwatched};
 use glam::{DVec2, DVec3};
 
 pub const SIZE: u32 = 64;

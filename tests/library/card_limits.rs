@@ -13,7 +13,7 @@ use brillianteer::trace::environment::{Backplate, Disc, Environment, Environment
 use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError, MOST_WAVELENGTHS};
 use brillianteer::trace::ray::RayOptions;
 use brillianteer::trace::sampling::LitScene;
-use brillianteer::trace::{ScopeShot, unwatched};
+use brillianteer::{base::unwatched, trace::ScopeShot};
 use glam::{DVec2, DVec3, DVec4};
 use std::io::Write;
 

@@ -1,11 +1,11 @@
 //! Compares figures whose rest is estimated by rays with figures that are certain.
 
 use crate::common::*;
+use brillianteer::base::unwatched;
 use brillianteer::math::Polytope;
 use brillianteer::measure::{Figures, by_beams, by_beams_and_rays, by_summed_beams};
 use brillianteer::scene::{ASET_CONE, Backing, Band, Medium, Scope, View, Viewpoint};
 use brillianteer::trace::beam::{self, BeamOptions, SumOptions, SummedBeams};
-use brillianteer::trace::unwatched;
 
 /// One stone, of its own proportions and material, at its own tilt.
 struct Case {

@@ -9,7 +9,10 @@ use brillianteer::scene::{
     ASET_CONE, Backing, Body, Film, Glare, Instance, Medium, Projection, Scene, Scope, Specimen, View,
 };
 use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, MeetingRay, RayOptions, StoneTracer};
-use brillianteer::trace::{DispersedRay, ScopeShot, unwatched};
+use brillianteer::{
+    base::unwatched,
+    trace::{DispersedRay, ScopeShot},
+};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 
@@ -194,7 +197,7 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
                 let mut pixels = vec![];
                 let (view, scope, shift) = (&view, &scope, DVec2::splat(0.5));
                 let shot = ScopeShot { solid, medium, view, scope, film, per_side: 1, shift, options };
-                by_rays::trace::<brillianteer::trace::Stopped>(&shot, Glare::Included, &unwatched, |rows| {
+                by_rays::trace::<brillianteer::base::Stopped>(&shot, Glare::Included, &unwatched, |rows| {
                     (rows.first..rows.first + rows.count).for_each(|y| {
                         (0..scope.bands.len()).for_each(|c| pixels.extend_from_slice(rows.row(y, c)))
                     });

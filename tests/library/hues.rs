@@ -1,6 +1,7 @@
 //! Compares the hues along a cut through a rainbow: three wavelengths show three bands, unless each sample pass takes
 //! others.
 
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::cut::{Glass, Sides};
 use brillianteer::io::background::BackgroundRef;
 use brillianteer::math::{Plane, Polytope};
@@ -11,7 +12,6 @@ use brillianteer::scene::{Film, Instance, Light, Mipmap, Scene, View};
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, RayOptions};
 use brillianteer::trace::sampling::{LitScene, Sampling};
-use brillianteer::trace::{Stopped, unwatched};
 use glam::{DMat3, DVec2, DVec3};
 use std::path::Path;
 

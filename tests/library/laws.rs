@@ -8,7 +8,10 @@ use brillianteer::measure::{
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{Film, Glare, Lean, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
-use brillianteer::trace::{Stopped, beam, unwatched};
+use brillianteer::{
+    base::{Stopped, unwatched},
+    trace::beam,
+};
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
 use std::ops::ControlFlow;

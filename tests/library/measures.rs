@@ -1,13 +1,13 @@
 //! Tests of measures of light: laws, an independent tracer, and published statements.
 
 use crate::common::*;
+use brillianteer::base::unwatched;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{Interval, LightMeasures, MeasureSettings, PatternSettings, hemisphere_return};
 use brillianteer::optics::{line, material};
 use brillianteer::scene::{DomeLight, Medium, Stone, View, elevation_deg};
 use brillianteer::trace::beam::{BeamOptions, trace};
 use brillianteer::trace::ray::{Camera, RayOptions, StoneTracer};
-use brillianteer::trace::unwatched;
 use glam::DVec2;
 use proptest::prelude::*;
 use std::ops::ControlFlow;

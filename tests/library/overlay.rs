@@ -1,6 +1,7 @@
 //! Compares each overlay with a plain computation of its own.
 
 use crate::common::*;
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{cos_transmitted, line, material, reflectance, refract};
 use brillianteer::picture::{Code, Overlay, lay};
@@ -8,7 +9,6 @@ use brillianteer::scene::{Film, Instance, Projection, Scene, View};
 use brillianteer::trace::environment::{Environment, EnvironmentMap};
 use brillianteer::trace::ray::{RayOptions, SceneProbe, facet_at};
 use brillianteer::trace::sampling::LitScene;
-use brillianteer::trace::{Stopped, unwatched};
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;
 

@@ -2,6 +2,7 @@
 //! published statements.
 
 use crate::common::*;
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::cut::RoundBrilliant;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{
@@ -12,7 +13,6 @@ use brillianteer::optics::{line, material};
 use brillianteer::scene::{Medium, View, elevation_deg};
 use brillianteer::trace::beam::{BeamOptions, Beams, trace};
 use brillianteer::trace::ray::{Camera, RayOptions, StoneTracer};
-use brillianteer::trace::{Stopped, unwatched};
 use glam::{DVec2, DVec3};
 
 const DIAMOND: f64 = 2.4175;

@@ -10,7 +10,7 @@ use brillianteer::scene::{
     ASET_CONE, Backing, Band, Medium, Projection, Scope, Side, Stone, View, Viewpoint,
 };
 use brillianteer::trace::beam::Beam;
-use brillianteer::trace::{ray, unwatched};
+use brillianteer::{base::unwatched, trace::ray};
 
 const DIAMOND: Medium = Medium::clear(2.4175);
 

@@ -2,6 +2,7 @@
 #![cfg(feature = "exr")]
 
 use crate::common::{self, maps};
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::io::{panorama, refraction as files};
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Illuminant, Material, Strata, encoded_from_linear, material};
@@ -10,7 +11,6 @@ use brillianteer::scene::{Film, Instance, Lean, Light, Mipmap, Panorama, Project
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{self, ByRays};
 use brillianteer::trace::sampling::{LitScene, Sampling};
-use brillianteer::trace::{Stopped, unwatched};
 use files::Coding;
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;

@@ -2,6 +2,7 @@
 #![cfg(feature = "interchange")]
 
 use super::corpus::files;
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::cut::{Cut, Design, FindingKind, MaterialRef, SMALL_FACET, SheetFigures, SmallestParts};
 use brillianteer::io::{as_tiers, cut_file, design_file, library};
 use brillianteer::measure::MeasureSettings;
@@ -9,7 +10,6 @@ use brillianteer::optics::line;
 use brillianteer::render::{Sweep, SweepAxis, SweepKey, SweepValue, SweptStone, with_numbers};
 use brillianteer::scene::{Specimen, Viewpoint};
 use brillianteer::search::{DesignSearch, Goal, GoalMeasure, SearchOptions, SearchProgress, VariedNumber};
-use brillianteer::trace::{Stopped, unwatched};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};

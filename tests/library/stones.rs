@@ -10,7 +10,7 @@ use brillianteer::io::mesh_options::MeshOptions;
 use brillianteer::io::{asc, cut_file, library, mesh};
 use brillianteer::measure::by_beams;
 use brillianteer::scene::{ASET_CONE, Backing, Scope, Specimen, View};
-use brillianteer::trace::{beam, unwatched};
+use brillianteer::{base::unwatched, trace::beam};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};

@@ -12,7 +12,10 @@ use brillianteer::scene::{Body, Film, Glare, Instance, Light, Medium, Scene, Vie
 use brillianteer::trace::environment::{Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, Camera, RayOptions, facet_at};
 use brillianteer::trace::sampling::{LitScene, Sampling};
-use brillianteer::trace::{ScopeShot, Stopped, beam, unwatched};
+use brillianteer::{
+    base::{Stopped, unwatched},
+    trace::{ScopeShot, beam},
+};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 

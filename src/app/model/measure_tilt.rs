@@ -135,7 +135,7 @@ fn order(specimen: &Specimen, azimuths: &[f64], measure: MeasureName, number: u6
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
-    use crate::trace::{Stopped, unwatched};
+    use brillianteer_base::{Stopped, unwatched};
 
     #[test]
     fn every_tilt_is_measured_once_and_coarse_ones_first() {

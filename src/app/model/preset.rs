@@ -4,8 +4,9 @@ use super::render_settings::RenderSettings;
 use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::assembly::{Assembly, StonePlace};
 use crate::io::scene_file::{self, RingEntry, SceneFile};
-use crate::io::{Failure, FileError, library};
+use crate::io::{Failure, library};
 use crate::scene::{Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen};
+use brillianteer_base::FileError;
 use std::path::Path;
 use std::sync::Arc;
 

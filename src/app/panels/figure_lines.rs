@@ -218,7 +218,8 @@ mod tests {
     use crate::measure::by_beams;
     use crate::optics::line;
     use crate::scene::View;
-    use crate::trace::{beam, unwatched};
+    use crate::trace::beam;
+    use brillianteer_base::unwatched;
     use std::sync::Arc;
 
     /// Returns the figures of the first stone, with a share of the light left unresolved.

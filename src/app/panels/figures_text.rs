@@ -146,7 +146,8 @@ mod tests {
     use crate::app::panels::figure_lines::{TOTALS, ZONES};
     use crate::measure::by_beams;
     use crate::scene::{ASET_CONE, Backing, Scope, View};
-    use crate::trace::{beam, unwatched};
+    use crate::trace::beam;
+    use brillianteer_base::unwatched;
 
     fn line(name: &str, share: f64, other: Option<f64>) -> FigureLine {
         let figure = ZONES.iter().chain(&TOTALS).find(|figure| figure.name == name).unwrap();

@@ -6,7 +6,7 @@ use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::PATTERN_SIDE;
 use crate::scene::Mipmap;
-use crate::trace::{Watch, unwatched};
+use brillianteer_base::{Watch, unwatched};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -5,7 +5,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::refraction::code_of;
 use crate::picture::{Background, Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
 use crate::scene::Film;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
 

@@ -11,7 +11,7 @@ pub use crate::picture::Smoothing;
 use crate::picture::{Inks, Overlay, RefractionMap};
 use crate::render::{Sweep, SweepError, SweptStone};
 use crate::scene::{Companions, Film, Glare, Pose, Specimen, View};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use egui::ColorImage;
 use std::borrow::Cow;
 use std::sync::Arc;

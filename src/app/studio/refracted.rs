@@ -11,7 +11,7 @@ use crate::app::lookup::as_screens;
 use crate::io::Failure;
 use crate::picture::{Carried, Develop, RefractionMap};
 use crate::render::{Job, Rendered, Renderer};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 
 /// The resolution of maps by grade. The time of a look-up grows with the number of bands.
 const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, samples: 1 };

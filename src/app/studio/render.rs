@@ -13,7 +13,7 @@ use crate::io::{Failure, Finish, StoredLight, WriteError};
 use crate::render::{Job, Partial, Quality, RenderError, Steps};
 use crate::scene::Mipmap;
 use crate::trace::places::place_in_pixel;
-use crate::trace::{Watch, unwatched};
+use brillianteer_base::{Watch, unwatched};
 use egui::ColorImage;
 use glam::DVec2;
 use std::path::Path;

@@ -2,8 +2,8 @@
 
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
-use crate::trace::Watch;
 use crate::trace::environment::EnvironmentMap;
+use brillianteer_base::Watch;
 use std::sync::Arc;
 
 /// The light of a shot. While the map of a world is drawn, a coarse one is at hand for rough pictures; all others wait for

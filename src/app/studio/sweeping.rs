@@ -5,7 +5,7 @@
 
 use super::order::{Answer, Order, SweepOrder};
 use super::worker::Worker;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -11,7 +11,7 @@ use crate::app::shows::Shows;
 use crate::io::{Failure, rasterize_within};
 use crate::picture::{DiagramStyle, Palette, marked_diagram};
 use crate::render::{Card, Partial, RenderError, Renderer};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use egui::ColorImage;
 
 /// Traces pictures, and keeps the data that later pictures can use.
@@ -151,7 +151,7 @@ mod tests {
     use crate::render::{Quality, Steps};
     use crate::scene::{Companions, Glare, Pose, Projection, View};
     use crate::trace::gpu::Gpu;
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
     use glam::DVec2;
     use std::ops::ControlFlow;
     use std::path::Path;

@@ -12,7 +12,7 @@ use crate::measure::{Bounds, Figures, LATTICE};
 use crate::render::{Card, Job, RenderError, Rendered};
 use crate::scene::View;
 use crate::trace::gpu::Gpu;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;

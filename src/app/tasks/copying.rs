@@ -52,7 +52,7 @@ mod tests {
     use crate::app::model::workspace::Workspace;
     use crate::app::studio::{Paper, Shot};
     use crate::scene::{Projection, View};
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
 
     #[test]
     fn a_copied_render_by_rays_has_the_pixels_of_an_exported_one() {

@@ -11,7 +11,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs};
 use crate::io::refraction::{self, Coding, Page, takes, write_page};
 use crate::render::{Renderer, mixture_note};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use egui::ColorImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

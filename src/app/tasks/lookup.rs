@@ -8,7 +8,7 @@ use crate::picture::liquid_glass::{GlassPane, PreparedPane, SeenThrough};
 use crate::picture::{Linear, RefractionMap, refract};
 use crate::picture::{PATTERN_SIDE, filling};
 use crate::scene::Panorama;
-use crate::trace::{Watch, unwatched};
+use brillianteer_base::{Watch, unwatched};
 use glam::DVec2;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::{Arc, OnceLock};

@@ -48,7 +48,7 @@ impl<A> JobHandle<A> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Stops the work of a job that was stopped, wherever a [`Watch`](crate::trace::Watch) is called.
+    /// Stops the work of a job that was stopped, wherever a [`Watch`](brillianteer_base::Watch) is called.
     pub fn watch(&self, _done: f64) -> ControlFlow<()> {
         if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }

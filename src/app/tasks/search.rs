@@ -57,7 +57,7 @@ fn found(
             say(SearchEvent::Progress(progress.clone()));
         }
     })?;
-    let others = OtherMeasure::all(&search, &outcome, &crate::trace::unwatched)?;
+    let others = OtherMeasure::all(&search, &outcome, &brillianteer_base::unwatched)?;
     let objective = search.objective();
     Ok(Box::new(SearchReport {
         start: objective.start().clone(),

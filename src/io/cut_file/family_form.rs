@@ -2,8 +2,8 @@
 
 use super::values::TomlTable;
 use crate::cut::{Cut, FAMILIES, Family, Proportion, ProportionError, Unit};
-use crate::io::file_error::Fault;
 use crate::io::toml_text::meant;
+use brillianteer_base::Fault;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;

@@ -7,9 +7,9 @@ use super::material_form::{MaterialForm, path_of};
 use super::tier_form::TierForm;
 use super::values::{Numbers, TomlTable};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, MeshShape, Tiers};
-use crate::io::file_error::Fault;
 use crate::io::toml_format::FORMAT;
 use crate::math::{Plane, Surface, TriangleMesh};
+use brillianteer_base::Fault;
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 

@@ -2,7 +2,7 @@
 
 use super::meet_form::MeetForm;
 use crate::cut::{Indexed, Tier};
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use serde::{Deserialize, Serialize};
 
 /// A table `[[tier]]`.

@@ -1,7 +1,7 @@
 //! The events and the progress that long work reports.
 
 use crate::io::Failure;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use std::path::Path;
 
 /// An event of long work, for the user.

@@ -7,7 +7,7 @@ use crate::measure::{Bounds, Estimate, Measured, UNRESOLVED};
 use crate::picture::Scoped;
 use crate::render::{Backend, FiguresProduct, Product, Renderer};
 use crate::scene::{Film, Glare, Lean, Projection, Viewpoint};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 

@@ -4,7 +4,7 @@ use super::viewing::Viewing;
 use crate::io::Failure;
 use crate::measure::{ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows};
 use crate::scene::VIEWER_CONES_DEG;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use serde_json::{Value, json};
 
 /// The default part of the light that may stay unresolved in hearts and arrows.

@@ -11,7 +11,7 @@ use crate::measure::{
 use crate::optics::line;
 use crate::render::{MeasuresProduct, Product, Renderer};
 use crate::scene::{DomeLight, Film};
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use serde_json::{Map, Value, json};
 
 /// The default part of the light that may stay unresolved in measures.

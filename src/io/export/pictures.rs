@@ -10,8 +10,8 @@ use crate::picture::{
 };
 use crate::render::{Job, Partial, Reading, Rendered, Renderer};
 use crate::scene::{Film, Stone, View};
-use crate::trace::Watch;
 use crate::trace::beam::{self, Beams};
+use brillianteer_base::Watch;
 
 /// The least share of the light that an energy drawing leaves unresolved. The drawing holds every polygon of the
 /// subdivision, and no viewer could show a finer one.

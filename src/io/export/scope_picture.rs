@@ -7,8 +7,8 @@ use crate::io::Failure;
 use crate::picture::{Caption, Palette, Scoped};
 use crate::render::{Partial, Product, Reading, Renderer, ScopeProduct};
 use crate::scene::Film;
-use crate::trace::Watch;
 use crate::trace::ray::Camera;
+use brillianteer_base::Watch;
 use glam::DVec2;
 
 /// The request for a picture of energy in a scope.

@@ -4,7 +4,7 @@ use crate::io::{cut_file, library};
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Specimen, Viewpoint};
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;

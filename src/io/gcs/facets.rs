@@ -3,9 +3,9 @@
 use super::read::Reader;
 use crate::cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
 use crate::io::cutters::{self, Gear, TierPiece};
-use crate::io::file_error::Fault;
 use crate::io::numbers::Token;
 use crate::math::Plane;
+use brillianteer_base::Fault;
 use glam::DVec3;
 use roxmltree::Node;
 

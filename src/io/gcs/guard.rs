@@ -2,8 +2,8 @@
 
 use super::MAX_BYTES;
 use crate::io::encoding::{self, Decoded, is_padding};
-use crate::io::file_error::Fault;
 use crate::io::text::{check_size, line_after};
+use brillianteer_base::Fault;
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 

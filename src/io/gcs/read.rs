@@ -4,8 +4,8 @@ use super::{COLOUR, ROOT, VERSION, guard};
 use crate::cut::{MaterialRef, Tiers};
 use crate::io::cutters::{self, Gear, WarningList};
 use crate::io::design_file::ImportedDesign;
-use crate::io::file_error::Fault;
 use crate::io::numbers::NumberReader;
+use brillianteer_base::Fault;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt::Display;
 

@@ -1,6 +1,6 @@
 //! Reads numbers and texts from bytes, one after the other.
 
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use std::fmt::Display;
 
 /// Makes a fault of the bytes at an offset.

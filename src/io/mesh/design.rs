@@ -8,13 +8,13 @@ use crate::cut::from_mesh::{
 };
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
-use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
 use crate::math::faceting::{
     Change, Faceted, NotFaceted, SurfaceKind, Unfaceted, faceted_hull, facets, hull_facets,
 };
 use crate::math::mending::{Mended, OpenPiece, SurfaceError};
 use crate::math::{Pose, Surface, Symmetry, TriangleMesh, signed};
+use brillianteer_base::{Fault, FileError};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 

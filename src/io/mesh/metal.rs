@@ -2,9 +2,9 @@
 //! computed ones.
 
 use super::file::{self, MeshFile, MeshFormat};
-use crate::io::file_error::FileError;
 use crate::io::text;
 use crate::math::{ShadedMesh, ShadedSurface};
+use brillianteer_base::FileError;
 use glam::DVec3;
 use std::fmt::Write;
 use std::path::Path;

@@ -5,10 +5,10 @@ use super::file::{MeshFormat, Stands, Statement};
 use super::size::MeshSize;
 use crate::cut::MaterialRef;
 use crate::cut::from_mesh::Up;
-use crate::io::file_error::Fault;
 use crate::io::mesh_options::{MeshOptions, MeshUnit};
 use crate::math::Pose;
 use crate::math::Surface;
+use brillianteer_base::Fault;
 use glam::DVec3;
 
 /// A direction this near to an axis (length of the difference) goes by the axis's name.

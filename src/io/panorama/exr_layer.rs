@@ -1,7 +1,7 @@
 //! Chooses the layer of an OpenEXR file that holds its picture. A layer is a part of the file, or the channels whose names
 //! share what stands before the last point, as in `ViewLayer.Combined.R`.
 
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use exr::error::{Error, Result as ExrResult};
 use exr::meta::attribute::Text;
 use exr::meta::header::Header;

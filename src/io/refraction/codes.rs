@@ -1,10 +1,10 @@
 //! Reads the numbers of a picture unchanged, without a conversion to light: PNG and OpenEXR.
 
 use super::{ABOUT, MOST_MAP_PIXELS};
-use crate::io::file_error::Fault;
 use crate::io::panorama::check_size;
 use crate::io::text::unreadable;
 use crate::io::undecoded::Undecoded;
+use brillianteer_base::Fault;
 use exr::image::{AnyChannel, FlatSamples};
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;

@@ -22,7 +22,7 @@ use super::export::{Reporter, Viewing, WorkShares};
 use super::{Failure, WriteError, pdf, write as write_whole};
 use crate::picture::{PaperSize, Report, report_pages};
 use crate::render::Renderer;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use std::path::Path;
 use stone::ReportedStone;
 

@@ -12,10 +12,10 @@ use crate::picture::{
 };
 use crate::render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
 use crate::scene::Scene;
-use crate::trace::Watch;
 use ::png::{BitDepth, ColorType};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use brillianteer_base::Watch;
 use std::sync::Arc;
 
 /// The bands of wavelengths of the picture under light.

@@ -13,7 +13,7 @@ use crate::math::{Basis, Symmetry};
 use crate::measure::{Interval, MeasureName, facet_deviations};
 use crate::picture::Scoped;
 use crate::render::Renderer;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 use glam::DVec3;
 
 /// The number of alike parts from which on a stone is measured to the finer bound of unresolved light, and both bounds.

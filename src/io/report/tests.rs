@@ -4,7 +4,7 @@ use crate::io::{cut_file, library};
 use crate::measure::STANDARD_ERROR;
 use crate::render::{Card, Wanted};
 use crate::scene::{Specimen, Viewpoint};
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 
 fn specimen(text: &str) -> Specimen {
     Specimen::new(cut_file::parse(text, "test").unwrap()).unwrap()

@@ -8,7 +8,7 @@ use crate::optics::line;
 use crate::picture::EmbeddedDrawing;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use crate::scene::Viewpoint;
-use crate::trace::Watch;
+use brillianteer_base::Watch;
 
 /// The greatest tilt to either side, degrees, and the step from one tilt to the next.
 const MOST_TILT: i32 = 30;

@@ -3,7 +3,6 @@
 use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
 use super::super::cut_file::values::{Numbers, OneOf, TomlTable};
-use super::super::file_error::Fault;
 use super::super::mesh_options::MeshPart;
 use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
@@ -13,6 +12,7 @@ use super::shared::{DEGREES, SizeForm, likely, material, place_mm, shown, within
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
 use crate::cut::is_printable;
 use crate::scene::{Layout, Movement};
+use brillianteer_base::Fault;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;

@@ -1,10 +1,10 @@
 //! The keys of a table `[[metal]]` of a scene file.
 
 use super::super::cut_file::values::{Numbers, TomlTable};
-use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
 use super::MetalEntry;
 use super::shared::{metal, place_mm, roughness, within};
+use brillianteer_base::Fault;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use toml::Spanned;

@@ -2,11 +2,11 @@
 
 use super::super::cut_file::material_form::MaterialForm;
 use super::super::cut_file::values::{Numbers, TomlTable};
-use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
 use super::ring_entry::RingEntry;
 use super::shared::{SizeForm, likely, material, metal, place_mm, roughness, shown};
 use crate::scene::{OuterShape, Ring, RingStyle};
+use brillianteer_base::Fault;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 

@@ -88,7 +88,7 @@ mod tests {
     use crate::measure::LightMeasures;
     use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace_bounces};
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
     use glam::DVec3;
 
     const BOUNCES: u32 = 4;

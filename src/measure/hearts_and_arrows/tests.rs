@@ -3,7 +3,7 @@ use crate::cut::{LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 use crate::math::Plane;
 use crate::measure::by_beams;
 use crate::scene::{Scope, VIEWER_CONES_DEG};
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use glam::DVec2;
 
 /// A change of a stone before it is measured.

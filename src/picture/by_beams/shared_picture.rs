@@ -10,12 +10,13 @@ use crate::math::random_bits::{GAMMA, mixed, unit};
 use crate::math::{Affine, area};
 use crate::picture::strips::strips;
 use crate::scene::Medium;
+use crate::trace::DispersedRay;
 use crate::trace::beam::{
     self, BeamEnd, Inside, SharedBeam, SharedBeams, SharedExit, SharedView, SharingOptions,
 };
 use crate::trace::sampling::{SamplePass, colour};
 use crate::trace::shared_tail::SharedTail;
-use crate::trace::{DispersedRay, Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use std::cmp::Ordering;
 use std::ops::Range;

@@ -19,7 +19,7 @@ use crate::scene::{Dome, Film, Instance, Lamp, Light, Mipmap, Panorama, Scene, V
 use crate::trace::environment::{Backplate, Environment, EnvironmentMap};
 use crate::trace::ray::{ByRays, RayOptions};
 use crate::trace::sampling::{LitScene, Sampling};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use cost::Sums;
 use glam::DVec2;
 

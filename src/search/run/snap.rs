@@ -4,7 +4,7 @@ use super::super::appraisal::Appraisal;
 use super::super::numbers::VariedNumber;
 use super::{Trials, merit};
 use crate::cut::Cut;
-use crate::trace::at_once;
+use brillianteer_base::at_once;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};

@@ -66,7 +66,7 @@ mod tests {
     use crate::cut::TOLKOWSKY;
     use crate::math::{Plane, Polytope};
     use crate::scene::{Medium, View};
-    use crate::trace::unwatched;
+    use brillianteer_base::unwatched;
     use glam::DVec3;
 
     #[test]

@@ -14,7 +14,7 @@ use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, ROOT, TreeSize};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::{Medium, Scope, View};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

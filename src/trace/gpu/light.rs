@@ -10,7 +10,7 @@ use crate::math::PosedSolid;
 use crate::scene::{self, Film, Instance, MOST_LAMPS, Mipmap, Panorama};
 use crate::trace::environment::{Environment, HEAD_EDGE};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::DVec3;
 use std::ops::Range;
 use wgpu::util::DeviceExt;

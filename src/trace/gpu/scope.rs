@@ -6,7 +6,8 @@ use super::limits::MOST_CARD_BANDS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage, StripLayer};
 use crate::math::{Pose, PosedSolid};
-use crate::trace::{ScopeShot, Stopped, Watch};
+use crate::trace::ScopeShot;
+use brillianteer_base::{Stopped, Watch};
 use glam::DVec2;
 
 /// The most pixels in a strip. They occupy any card fully, and memory for more of them takes longer to get than the card

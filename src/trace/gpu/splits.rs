@@ -9,10 +9,11 @@ use crate::cut::{Design, Family, MaterialRef};
 use crate::math::{ShadedMesh, ShadedSurface};
 use crate::optics::{Illuminant, Metal, Strata};
 use crate::scene::{ASET_CONE, Backing, Film, Light, MetalInstance, Scene, Scope, Specimen, View};
+use crate::trace::ScopeShot;
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass};
-use crate::trace::{ScopeShot, unwatched};
+use brillianteer_base::unwatched;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 

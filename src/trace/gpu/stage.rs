@@ -8,7 +8,7 @@ use super::shaders::Kernel;
 use super::solids::{Solids, most_turns, plane_sixteenths};
 use crate::scene::{Film, Projection, View};
 use crate::trace::ray::RayOptions;
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use bytemuck::Pod;
 use glam::DVec2;
 use std::ops::Range;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::app::model::document::Document;
 use crate::cut::Crown;
-use crate::trace::{Stopped, unwatched};
+use brillianteer_base::{Stopped, unwatched};
 
 fn design(name: &str) -> Design {
     Document::of_library(name).unwrap().work.design

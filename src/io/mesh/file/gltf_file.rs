@@ -13,7 +13,7 @@ mod shape_only;
 mod uri;
 
 use super::parsed_mesh::ParsedMesh;
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use faults::{UNREADABLE, broken, unfit};
 use gltf::json::validation::Checked;
 use gltf::json::{Root, deserialize};

@@ -1,9 +1,9 @@
 //! Limits of the meshes that are read: enough for any scan of a stone, too little to fill the memory.
 
 use super::parsed_mesh::ParsedMesh;
-use crate::io::file_error::Fault;
 use crate::io::text::content;
 use crate::math::Surface;
+use brillianteer_base::Fault;
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes; a buffer beside it may be as large again, and all buffers together.

@@ -23,9 +23,9 @@ mod stl_file;
 mod tests;
 
 use crate::io::encoding::{decoded, in_utf8};
-use crate::io::file_error::{Fault, FileError};
 use crate::io::foreign;
 use crate::math::Surface;
+use brillianteer_base::{Fault, FileError};
 use glam::DVec3;
 use std::path::Path;
 

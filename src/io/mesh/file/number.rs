@@ -1,7 +1,7 @@
 //! Numbers of mesh files in text: as people and their programs write them, and as Fortran does.
 
-use crate::io::file_error::Fault;
 use crate::io::numbers::NumberReader;
+use brillianteer_base::Fault;
 
 /// The most characters of a token that a message quotes.
 const QUOTED: usize = 40;

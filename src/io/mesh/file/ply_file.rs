@@ -9,8 +9,8 @@ use super::ply_rows::PlyRows;
 use super::polygons::Polygons;
 use super::statement::Statement;
 use crate::io::encoding::with_line_feeds;
-use crate::io::file_error::Fault;
 use crate::io::numbers::NumberReader;
+use brillianteer_base::Fault;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{

@@ -1,7 +1,7 @@
 //! Brings the lines of a PLY header into the form that ply-rs-bw takes, and says what is wrong with those that have no such
 //! form.
 
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 
 /// The words that begin the lines of a header. Lines of other words are left out.
 const WORDS: [&str; 7] = ["ply", "format", "comment", "obj_info", "element", "property", "end_header"];

@@ -1,6 +1,6 @@
 //! Checks the rows of a PLY in text against its header, so that errors can say which row is at fault, and how.
 
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use ply_rs_bw::ply::{ElementDef, Header, PropertyType, ScalarType};
 
 /// The most characters of a word that a message quotes.

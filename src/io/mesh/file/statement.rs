@@ -7,8 +7,8 @@
 //! points and middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
 
 use crate::cut::MaterialRef;
-use crate::io::file_error::Fault;
 use crate::math::{self, Surface, rounded};
+use brillianteer_base::Fault;
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;
 

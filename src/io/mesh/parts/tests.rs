@@ -2,11 +2,11 @@
 
 use crate::cut::Cut;
 use crate::io::design_file::ImportedDesign;
-use crate::io::file_error::FileError;
 use crate::io::mesh::read;
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
 use crate::math::fixture::{Triangles, extruded};
 use crate::scene::Specimen;
+use brillianteer_base::FileError;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::path::Path;

@@ -4,7 +4,7 @@ use super::*;
 use crate::optics::line;
 use crate::picture::liquid_glass::LightFrom;
 use crate::picture::liquid_glass::tests::{apart, even, full, none, pattern};
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use glam::DVec4;
 use std::ops::ControlFlow;
 use std::sync::Mutex;

@@ -25,7 +25,7 @@ use super::split::Facets;
 use crate::math::{Affine, Basis, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::{Medium, View};
-use crate::trace::{Stopped, Watch};
+use brillianteer_base::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;

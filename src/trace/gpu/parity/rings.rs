@@ -14,7 +14,7 @@ use crate::scene::{Body, Film, Instance, Light, MetalInstance, Scene, View};
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::{ByRays, RayOptions};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
-use crate::trace::{Stopped, unwatched};
+use brillianteer_base::{Stopped, unwatched};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@ use crate::scene::{Film, Instance, Light, Scene, View};
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::{RayOptions, StoneTracer};
 use crate::trace::sampling::Sampling;
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use glam::DVec3;
 
 const SIZE: u32 = 24;

@@ -7,7 +7,7 @@ use crate::scene::{Film, Instance, Light, MetalInstance, Scene, View};
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::Sampling;
-use crate::trace::unwatched;
+use brillianteer_base::unwatched;
 use glam::DVec3;
 use num_complex::Complex64;
 use std::sync::Arc;

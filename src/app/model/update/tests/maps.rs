@@ -8,7 +8,7 @@ use crate::app::model::ordering::Orders;
 use crate::app::studio::SweptPoint;
 use crate::cut::Cut;
 use crate::measure::MeasureName;
-use crate::trace::{Stopped, unwatched};
+use brillianteer_base::{Stopped, unwatched};
 use std::sync::Arc;
 
 /// Returns the numbers of the sweeps that are requested now.

@@ -6,7 +6,7 @@ use super::instances;
 use super::meshopt::{self, Packed};
 use super::repair::DRACO;
 use super::uri;
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use glam::DVec3;
 use gltf::accessor::{DataType, Dimensions, Item, Iter};
 use gltf::buffer::{Buffer, Source, View};

@@ -3,7 +3,7 @@
 use super::super::limits::{self, MAX_BYTES, MAX_TRIANGLES, MAX_VERTICES};
 use super::buffers::Data;
 use super::repair::DRACO;
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use draco_core::{DecodeLimits, DecoderBuffer, GeometryAttributeType, Mesh, MeshDecoder};
 use glam::DVec3;
 use gltf::{Document, Primitive};

@@ -1,8 +1,8 @@
 //! Says in plain words what is wrong with a glTF file that the gltf crate gives up on, and where.
 
 use super::repair::string_length;
-use crate::io::file_error::Fault;
 use crate::io::toml_text::in_plain_words;
+use brillianteer_base::Fault;
 use gltf::binary::Error as BinaryError;
 use gltf::json::Error as JsonError;
 use gltf::json::validation::Error as Invalid;

@@ -2,8 +2,8 @@
 
 use super::buffers::Data;
 use super::uri;
-use crate::io::file_error::Fault;
 use crate::io::undecoded::Undecoded;
+use brillianteer_base::Fault;
 use gltf::Document;
 use gltf::json::Image;
 use image::{ImageFormat, ImageReader, guess_format};

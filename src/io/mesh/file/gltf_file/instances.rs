@@ -1,7 +1,7 @@
 //! Reads the places of the copies of a node's mesh, by EXT_mesh_gpu_instancing.
 
 use super::buffers::{self, Data};
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf::{Accessor, Document, Node};
 

@@ -1,7 +1,7 @@
 //! Unpacks buffer views that EXT_meshopt_compression has packed, as its specification describes (Khronos, 2021): bytes of
 //! attributes as differences from corner to corner, triangles by the edges and corners that came before.
 
-use crate::io::file_error::Fault;
+use brillianteer_base::Fault;
 
 /// The name of the extension.
 pub(super) const NAME: &str = "EXT_meshopt_compression";

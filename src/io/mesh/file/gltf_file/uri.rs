@@ -1,10 +1,10 @@
 //! Reads what the address of a buffer or an image stands for: bytes that are written in it, or a file beside the glTF file.
 
 use super::super::limits;
-use crate::io::file_error::Fault;
 use base64::Engine as _;
 use base64::alphabet::{STANDARD, URL_SAFE};
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use brillianteer_base::Fault;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 

@@ -59,36 +59,35 @@ impl From<&str> for Fault {
 
 impl Fault {
     /// Makes a fault of the file as a whole.
-    pub(super) fn whole(problem: impl Display) -> Self {
+    pub fn whole(problem: impl Display) -> Self {
         Self { line: None, key: None, problem: problem.to_string() }
     }
 
     /// Makes a fault of a line.
-    pub(super) fn line(line: usize, problem: impl Display) -> Self {
+    pub fn line(line: usize, problem: impl Display) -> Self {
         Self { line: Some(line), ..Self::whole(problem) }
     }
 
     /// Makes a fault of the value at a key's path, or of the enclosing value where that value is missing. The problem
     /// names the key in a person's words.
-    pub(super) fn key(key: impl Display, problem: impl Display) -> Self {
+    pub fn key(key: impl Display, problem: impl Display) -> Self {
         Self { key: Some(key.to_string()), ..Self::whole(problem) }
     }
 
     /// Makes a fault of a part of a file without keys, such as a triangle or a byte's offset.
-    #[cfg(feature = "interchange")]
-    pub(super) fn part(part: impl Display, problem: impl Display) -> Self {
+    pub fn part(part: impl Display, problem: impl Display) -> Self {
         Self::key(&part, format!("{part}: {problem}"))
     }
 
     /// Returns the same fault for a part of something else: `path` comes before its key, and `words` before its
     /// problem.
-    pub(super) fn within(self, path: &str, words: &str) -> Self {
+    pub fn within(self, path: &str, words: &str) -> Self {
         let key = self.key.map(|key| path.to_owned() + &key);
         Self { key, problem: words.to_owned() + &self.problem, ..self }
     }
 
     /// Adds the name of the file. The message becomes one line, cut to a readable length.
-    pub(super) fn in_file(self, path: impl Display) -> FileError {
+    pub fn in_file(self, path: impl Display) -> FileError {
         let mut problem = self.problem;
         if problem.contains(['\n', '\r']) {
             problem = problem.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -1,0 +1,12 @@
+//! What every room shares: work that can be watched and stopped, faults in what people wrote, with their places, and names that
+//! are nearly what was asked for.
+
+mod at_once;
+mod fault;
+mod nearest;
+mod watch;
+
+pub use at_once::at_once;
+pub use fault::{Fault, FileError, NameOrFileError};
+pub use nearest::{nearest, slips};
+pub use watch::{Stopped, Watch, go_on, unwatched};
