@@ -1,5 +1,6 @@
 //! `convert`: writes a stone's design in another format.
 
+use super::choice::{DESIGN_FORMATS, one_of};
 use super::comments;
 use super::console::say;
 use super::meets::KnownMeets;
@@ -20,7 +21,7 @@ pub struct Convert {
     /// and needs --format
     output: PathBuf,
     /// The format to write, whatever the ending
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = one_of(&DESIGN_FORMATS))]
     format: Option<DesignFormat>,
     /// Follow the meets of tiers: keep those that the file gives, that its instructions state and that the geometry shows, and
     /// move each tier to the distance that follows. A cut by proportions is turned into tiers first, named P1, G1, C1, T

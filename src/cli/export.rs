@@ -1,6 +1,7 @@
 //! `export`: writes pictures, drawings and figures of stones to files.
 
 use super::batch::each_file;
+use super::choice::{OUTPUT_FORMATS, one_of};
 use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::WorkProgress;
 use super::specimen::stem;
@@ -28,7 +29,7 @@ pub struct ExportArguments {
     #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=i64::from(MOST_PIXELS)))]
     size: u32,
     /// Kinds of file to write, separated by commas
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [OutputFormat::Png, OutputFormat::Svg, OutputFormat::Json])]
+    #[arg(long, value_parser = one_of(&OUTPUT_FORMATS), value_delimiter = ',', default_values = ["png", "svg", "json"])]
     format: Vec<OutputFormat>,
     /// Folder to write to; `-` is standard output, for a single file; of the two pictures in a scope it gets energy
     #[arg(long, default_value = "out")]

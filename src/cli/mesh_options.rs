@@ -1,9 +1,10 @@
 //! The options of every command that reads meshes.
 
+use super::choice::{MESH_FORMS, name_of, one_of};
 use crate::cut::Size;
 use crate::cut::from_mesh::{Evening, Up};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::DVec3;
 
 /// The options by which meshes are read. Other files of designs state the direction and the form themselves.
@@ -14,7 +15,7 @@ pub struct MeshArguments {
     #[arg(long, value_name = "DIRECTION", value_parser = direction, allow_hyphen_values = true)]
     up: Option<Up>,
     /// The form in which the triangles of a mesh are read [default: as found]
-    #[arg(long = "as", value_name = "FORM", value_enum)]
+    #[arg(long = "as", value_name = "FORM", value_parser = one_of(&MESH_FORMS))]
     form: Option<MeshForm>,
     /// The unit of a mesh: mm, cm, m, in, um, or its length, such as 0.5mm [default: as the file states, m in glTF, else mm]
     #[arg(long, value_name = "UNIT", allow_hyphen_values = true)]
@@ -52,7 +53,7 @@ impl MeshArguments {
             Up::Given(direction) => Some(direction.to_array().map(|part| (part + 0.0).to_string()).join(",")),
             _ => None,
         });
-        let form = self.form.and_then(|form| form.to_possible_value()).map(|form| form.get_name().to_owned());
+        let form = self.form.and_then(|form| name_of(&MESH_FORMS, form)).map(str::to_owned);
         let words = |option: &str, value: Option<String>| value.map(|value| [option.to_owned(), value]);
         let [unit, part] =
             [self.unit.map(|unit| unit.to_string()), self.part.as_ref().map(MeshPart::to_string)];

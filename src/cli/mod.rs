@@ -6,6 +6,7 @@
 mod audit_list;
 mod batch;
 mod bench;
+mod choice;
 mod comments;
 mod console;
 mod convert;

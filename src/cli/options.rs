@@ -1,5 +1,6 @@
 //! Options that several commands share: the viewpoint, and the settings by which light is traced.
 
+use super::choice::{TRACERS, one_of};
 use super::specimen::{LoadedSpecimen, note_colour};
 use crate::io::export::Viewing;
 use crate::io::{Failure, scope_file};
@@ -158,7 +159,7 @@ pub struct LightOptions {
     #[arg(long)]
     pub unpolarised: bool,
     /// The tracer of the light
-    #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
+    #[arg(long, value_parser = one_of(&TRACERS), default_value = "auto")]
     pub tracer: Wanted,
 }
 

@@ -1,6 +1,7 @@
 //! Options of the commands that take pictures under light. All take [`PictureOptions`]: stones, light and picture. `render`
 //! and `spin` also take [`FinishOptions`]: tracing and finish.
 
+use super::choice::{MOVEMENTS, TRACERS, one_of};
 use super::options::{OptionError, number};
 use super::specimen_options::SpecimenOptions;
 use crate::picture::{Bloom, Overlay, Smoothing, Tone};
@@ -63,7 +64,7 @@ pub struct PictureOptions {
     #[arg(long, value_name = "SECONDS", value_parser = number)]
     pub moment: Option<f64>,
     /// How plates move by that moment: both tumble and wave, or one of these [default: the scene's, or both]
-    #[arg(long, value_enum, value_name = "HOW", requires = "moment")]
+    #[arg(long, value_parser = one_of(&MOVEMENTS), value_name = "HOW", requires = "moment")]
     pub movement: Option<Movement>,
     #[command(flatten)]
     pub specimen: SpecimenOptions,
@@ -85,7 +86,7 @@ pub struct FinishOptions {
     #[arg(long, value_name = "N", default_value_t = USUAL_BOUNCES, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub bounces: u32,
     /// The tracer of the light; beams are for one convex stone without a photograph behind
-    #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
+    #[arg(long, value_parser = one_of(&TRACERS), default_value = "auto")]
     pub tracer: Wanted,
     /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
     #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]

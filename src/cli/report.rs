@@ -1,6 +1,7 @@
 //! `report`: writes a report on a design, or on how several compare, as a laboratory would hand it out.
 
 use super::batch::{ends_all, of_several, report_failure};
+use super::choice::{PAPER_SIZES, one_of};
 use super::console::{say, written};
 use super::options::{LightOptions, SideName, ViewOptions};
 use super::progress::WorkProgress;
@@ -21,7 +22,7 @@ pub struct ReportArguments {
     #[arg(short = 'o', long, value_name = "FILE")]
     out: PathBuf,
     /// The size of a PDF's paper
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = one_of(&PAPER_SIZES), default_value = "a4")]
     paper: PaperSize,
     /// A date to print, in any words; without one the same report is the same every day
     #[arg(long, value_name = "TEXT")]

@@ -1,6 +1,7 @@
 //! `sheet`: writes the sheets that gem cutters work from.
 
 use super::batch::{distinct, each_file};
+use super::choice::{PAPER_SIZES, SHEET_FORMATS, one_of};
 use super::console::{json, print, say, written};
 use super::specimen::stem;
 use super::specimen_options::SpecimenOptions;
@@ -20,10 +21,10 @@ pub struct SheetArguments {
     #[arg(long, default_value = "out", value_name = "FILE|FOLDER")]
     out: PathBuf,
     /// The format to write, whatever the ending [default: that of the ending, else pdf]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = one_of(&SHEET_FORMATS))]
     format: Option<SheetFormat>,
     /// The size of the paper
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = one_of(&PAPER_SIZES), default_value = "a4")]
     paper: PaperSize,
     /// Give the indices of a gear that counts clockwise, for a left-handed machine
     #[arg(long)]

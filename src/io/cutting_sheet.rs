@@ -13,9 +13,8 @@ mod tests;
 /// The resolution of sheets in PNG, pixels per inch.
 const PIXELS_PER_INCH: f64 = 300.0;
 
-/// A format of sheets. clap prints these comments as the option's help.
+/// A format of sheets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum SheetFormat {
     /// Portable documents, all pages in one file, with text that can be searched.
     Pdf,

@@ -19,9 +19,8 @@ mod imported;
 pub use encoded::EncodedDesign;
 pub use imported::ImportedDesign;
 
-/// A format of design files. clap prints these comments as the option's help.
+/// A format of design files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum DesignFormat {
     /// Cut files of this program.
     Toml,

@@ -42,9 +42,8 @@ const MOST_NAMED: usize = 3;
 const DRAWING: f64 = 0.1;
 const FIGURES: f64 = 1.0;
 
-/// A file format of the outputs. clap prints these comments as the option's help.
+/// A file format of the outputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum OutputFormat {
     /// Pictures of energy and of strongest exits, sRGB.
     Png,

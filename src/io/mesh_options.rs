@@ -80,14 +80,12 @@ impl Display for MeshPart {
     }
 }
 
-/// The form in which the triangles of a mesh are read. clap prints these comments as the option's help.
+/// The form in which the triangles of a mesh are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum MeshForm {
     /// The shape decides: facets where the mesh means a convex stone, else triangles.
     #[default]
-    #[cfg_attr(feature = "cli", value(skip))]
     Found,
     /// The flat facets of a convex stone, which exact beams, scopes and drawings need.
     Faceted,

@@ -8,22 +8,17 @@ use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
 use serde::{Deserialize, Serialize};
 
-/// The tracer of a request. clap prints these comments as the option's help.
+/// The tracer of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Wanted {
     /// The quickest: exact beams; a graphics card for renders and where beams do not apply; else rays.
     #[default]
-    #[cfg_attr(feature = "cli", value(name = "auto"))]
     Quickest,
     /// Exact beams, in f64, for parallel rays.
-    #[cfg_attr(feature = "cli", value(name = "beam"))]
     Beams,
     /// Point rays on the processor: in f32 for pictures under light without meshes, in f64 for all else.
-    #[cfg_attr(feature = "cli", value(name = "ray"))]
     Rays,
     /// Point rays on a graphics card, in f32.
-    #[cfg_attr(feature = "cli", value(name = "gpu"))]
     Card,
 }
 

@@ -79,23 +79,6 @@ impl TryFrom<String> for Movement {
     }
 }
 
-#[cfg(feature = "cli")]
-impl clap::ValueEnum for Movement {
-    fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [Movement; 3] = [Movement::NAMES[0].1, Movement::NAMES[1].1, Movement::NAMES[2].1];
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-        let meaning = match self {
-            Self::Both => "Plates tumble as other bodies do, and their waves run",
-            Self::Tumble => "Plates tumble, and their waves stand still",
-            Self::Wave => "The waves run, and the plates stay in their pose",
-        };
-        Some(clap::builder::PossibleValue::new(self.name()).help(meaning))
-    }
-}
-
 /// Whether a cut is a plate with a wave.
 pub fn has_wave(cut: &Cut) -> bool {
     matches!(cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
@@ -107,12 +90,10 @@ mod tests {
     use crate::cut::Family;
 
     #[test]
-    fn each_movement_has_one_name_in_files_and_options() {
+    fn each_movement_has_one_name_in_files() {
         for (name, movement) in Movement::NAMES {
             assert_eq!(serde_json::to_value(movement).unwrap(), name);
             assert_eq!(serde_json::from_value::<Movement>(name.into()).unwrap(), movement);
-            #[cfg(feature = "cli")]
-            assert_eq!(<Movement as clap::ValueEnum>::from_str(name, false), Ok(movement));
         }
         let unknown = serde_json::from_value::<Movement>("waves".into()).unwrap_err().to_string();
         assert!(unknown.contains("'waves'") && unknown.contains("both, tumble, wave"), "{unknown}");

@@ -42,7 +42,6 @@ const PROFILE: DVec2 = DVec2::new(290.0, 230.0);
 
 /// A size of paper, upright.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum PaperSize {
     /// 210 by 297 mm.
     #[default]
