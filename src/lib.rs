@@ -26,6 +26,9 @@
 // Files of the tests that the library shares with the programs in `tests/` name it.
 #[cfg(test)]
 extern crate self as brillianteer;
+#[cfg(test)]
+#[path = "../tests/common/solids.rs"]
+mod solids;
 
 #[cfg(feature = "app")]
 pub mod app;
@@ -33,9 +36,7 @@ pub mod app;
 pub mod cli;
 pub mod cut;
 pub mod io;
-pub mod math;
 pub mod measure;
-pub mod optics;
 pub mod picture;
 pub mod render;
 pub mod scene;
@@ -44,5 +45,7 @@ pub mod trace;
 
 /// What every room shares: work that can be watched and stopped, and faults in files.
 pub use brillianteer_base as base;
+pub use brillianteer_math as math;
+pub use brillianteer_optics as optics;
 pub use glam;
 pub use render::measure;

@@ -2,8 +2,8 @@
 
 use crate::cut::{BY_TIERS, GROUPS};
 use crate::io::{cut_file, library};
-use crate::math::{Basis, Edge, SolidRef};
 use crate::scene::Specimen;
+use brillianteer_math::{Basis, Edge, SolidRef};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;

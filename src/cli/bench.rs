@@ -8,9 +8,7 @@ use super::console::{json, print, say};
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
 use crate::io::mesh_options::MeshOptions;
-use crate::math::Polytope;
 use crate::measure::{Bounds, STANDARD_ERROR};
-use crate::optics::line;
 use crate::render::{
     Backend, Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer,
     ScopeProduct, Steps, Surroundings, USUAL_BOUNCES, Wanted,
@@ -21,6 +19,8 @@ use crate::trace::environment::{EnvironmentMap, Lighting};
 use crate::trace::ray::{Camera, RayOptions, StoneTracer};
 use crate::trace::sampling::SamplePass;
 use brillianteer_base::unwatched;
+use brillianteer_math::Polytope;
+use brillianteer_optics::line;
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};

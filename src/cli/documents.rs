@@ -90,7 +90,7 @@ fn exists(option: Option<&str>, word: &str) -> bool {
     }
     let is_file = word.contains('.') || word == "-";
     match option {
-        Some("--material") => word.parse::<f64>().is_ok() || crate::optics::material(word).is_ok(),
+        Some("--material") => word.parse::<f64>().is_ok() || brillianteer_optics::material(word).is_ok(),
         Some("--light") => is_file || crate::scene::light(word).is_some(),
         Some("--views") => word.split(',').all(|name| crate::picture::named(name).is_some()),
         Some("--scope") => is_file || crate::picture::named(word).is_some(),
@@ -198,7 +198,7 @@ fn the_overview_in_the_readme_names_every_command_and_options_that_it_takes() {
 fn the_readme_counts_the_families_and_materials_that_there_are() {
     let text = read("README.md").split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("Twenty-three [families]") && text.contains("30 gem materials and 12 glasses"));
-    assert_eq!(crate::optics::materials().len(), 30 + 12);
+    assert_eq!(brillianteer_optics::materials().len(), 30 + 12);
     let headings = read("docs/families.md").lines().filter(|line| line.starts_with("| [")).count();
     // The round brilliant has a section of its own in docs/formats.md.
     assert_eq!(headings + 1, 23);

@@ -3,8 +3,8 @@
 use super::specimen::LoadedSpecimen;
 use crate::cut::{ClassEstimate, Unit};
 use crate::io::Failure;
-use crate::math::fixed;
 use crate::measure::brilliant_proportions;
+use brillianteer_math::fixed;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -4,9 +4,9 @@ use super::console::{json, print};
 use crate::io::assembly::Assembly;
 use crate::io::library::{CUTS, SCENES, cut, scene};
 use crate::io::{Failure, cut_file, light_file, lighting, scene_file, scope_file};
-use crate::optics::{line, materials};
 use crate::picture::{Picture, named, names};
 use crate::scene::{LIGHTS, Scope, light};
+use brillianteer_optics::{line, materials};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -22,7 +22,7 @@ pub struct List {
 impl List {
     pub fn materials(&self) -> Result<(), Failure> {
         if self.json {
-            let entry = |m: &crate::optics::Material| {
+            let entry = |m: &brillianteer_optics::Material| {
                 json!({
                     "name": m.name,
                     "description": m.description,

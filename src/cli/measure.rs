@@ -10,13 +10,13 @@ use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
 use crate::io::Failure;
 use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
-use crate::math::{fixed, signed};
 use crate::measure::{
     ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
 };
 use crate::picture::Scoped;
 use crate::render::{Card, Renderer};
 use crate::scene::{DomeLight, Glare};
+use brillianteer_math::{fixed, signed};
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;

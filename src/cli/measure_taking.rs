@@ -5,8 +5,8 @@ use super::specimen::note_no_fire;
 use super::specimen_options::SpecimenOptions;
 use crate::io::Failure;
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
-use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepKey};
+use brillianteer_optics::line;
 use clap::Args;
 use std::path::Path;
 

@@ -3,8 +3,8 @@
 use super::console::say;
 use crate::cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
 use crate::io::as_tiers;
-use crate::math::fixed;
 use crate::scene::Specimen;
+use brillianteer_math::fixed;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fmt::Write;

@@ -2,12 +2,12 @@
 
 use super::sweep_plot::label;
 use crate::cut::Cut;
-use crate::math::{rounded, signed};
 use crate::measure::Interval;
 use crate::search::{
     DesignSearch, Goal, GoalValue, MeasureChange, OtherMeasure, SearchOutcome, VariedNumber,
     estimated_classes,
 };
+use brillianteer_math::{rounded, signed};
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -5,11 +5,11 @@ use super::specimen::{LoadedSpecimen, note_colour};
 use crate::io::export::Viewing;
 use crate::io::{Failure, scope_file};
 use crate::measure::STANDARD_ERROR;
-use crate::optics::{INDICES, INDICES_IN_WORDS, Material, line};
 use crate::picture::{Picture, Scoped, named, names};
 use crate::render::{Renderer, Unfit, Wanted};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
 use brillianteer_base::nearest;
+use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 

@@ -10,10 +10,10 @@ use crate::io::export::caption_pixels;
 use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
 use crate::io::{Failure, rasterize, with_cover};
 use crate::measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
-use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use crate::scene::Lean;
 use brillianteer_base::Watch;
+use brillianteer_optics::line;
 
 /// The least width of pictures with curves, in pixels.
 pub const LEAST_PLOTTED: u32 = 320;

@@ -4,7 +4,7 @@
 use super::proportions::{Derived, Proportions};
 use super::round_brilliant::RoundBrilliant;
 use super::{Cut, ProportionError, Warning, facets};
-use crate::math::Plane;
+use brillianteer_math::Plane;
 
 impl RoundBrilliant {
     fn closed_form(&self) -> Result<Proportions, ProportionError> {
@@ -23,7 +23,7 @@ impl RoundBrilliant {
     ///
     /// The order is table, bezels, stars, upper halves, girdle, lower halves, mains, and the culet if there is one. Each
     /// tier is numbered from 1, counter-clockwise seen from the table. Where the girdle closes in its valleys, some girdle
-    /// planes no longer touch the stone; a [`Polytope`](crate::math::Polytope) made of the planes lists them as redundant.
+    /// planes no longer touch the stone; a [`Polytope`](brillianteer_math::Polytope) made of the planes lists them as redundant.
     ///
     /// # Errors
     /// The error names the first limit that is crossed, and the excess.

@@ -2,8 +2,8 @@
 
 use super::material::{MaterialError, MaterialRef};
 use super::{Cut, ProportionError, TierFault, Tiers, Warning, names};
-use crate::math::{NotConvex, Plane};
-use crate::optics::{critical_angle, line};
+use brillianteer_math::{NotConvex, Plane};
+use brillianteer_optics::{critical_angle, line};
 
 /// The girdle diameter of a design whose file gives none, mm: that of a brilliant of about one carat.
 pub const DEFAULT_DIAMETER_MM: f64 = 6.5;

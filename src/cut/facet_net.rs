@@ -3,7 +3,7 @@
 
 use super::facet_zones::EXACT;
 use super::names;
-use crate::math::{Facet, Plane, Polytope, Surface, span, triangulate};
+use brillianteer_math::{Facet, Plane, Polytope, Surface, span, triangulate};
 use glam::DVec3;
 use std::collections::BTreeSet;
 

@@ -1,7 +1,7 @@
 //! Finds the zone of a stone in which a facet lies: the table, the crown, the girdle, the pavilion or the culet.
 
 use super::TierZone;
-use crate::math::{Facet, Polytope};
+use brillianteer_math::{Facet, Polytope};
 
 /// A facet whose normal leans less than this (sine) from the girdle plane is upright, and from the axis level. Upright facets
 /// of a cutter's file of six digits lean by no more.
@@ -108,7 +108,7 @@ mod tests {
     use super::super::round_brilliant::{MODERN, RoundBrilliant};
     use super::*;
     use crate::cut::Outline;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
     use glam::{DQuat, DVec3};
     use std::f64::consts::TAU;
 

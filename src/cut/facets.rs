@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::proportions::{HALF_AZIMUTH, Proportions, STAR_AZIMUTH};
-use crate::math::Plane;
+use brillianteer_math::Plane;
 
 /// Returns every facet's name and plane, in the order of the tiers.
 pub(super) fn round_brilliant(p: &Proportions) -> Vec<(String, Plane)> {

@@ -5,7 +5,7 @@ use super::facet_net::NoRoom;
 use super::family_cut::FamilyCut;
 use super::proportion_error::ProportionError;
 use super::shape::Cut;
-use crate::math::{NotConvex, Plane, Polytope, TriangleMesh};
+use brillianteer_math::{NotConvex, Plane, Polytope, TriangleMesh};
 
 /// The stone of a family.
 #[derive(Debug, Clone, PartialEq)]

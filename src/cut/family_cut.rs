@@ -3,7 +3,7 @@
 use super::facet_net::{FacetNet, NoRoom};
 use super::family::{Family, Proportion};
 use super::shape::Cut;
-use crate::math::Polytope;
+use brillianteer_math::Polytope;
 use std::fmt;
 use std::ops::Index;
 

@@ -5,7 +5,7 @@
 //! at the mains of a brilliant and between two halves; these places are the hills of an edge.
 
 use super::facet_zones::{EXACT, FacetZones};
-use crate::math::{Facet, Polytope};
+use brillianteer_math::{Facet, Polytope};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
 

@@ -3,7 +3,7 @@
 //! Lengths are percent of the design's diameter, as with stones; +z points to the eye of the view face up. A cube or prism
 //! with sharp edges is a solid between planes like any stone; every other shape is a smooth solid.
 
-use crate::math::ImplicitForm;
+use brillianteer_math::ImplicitForm;
 use glam::DVec3;
 
 /// A glass shape with its dimensions.

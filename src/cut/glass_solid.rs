@@ -1,7 +1,7 @@
 //! The solid of a glass shape: its implicit surface, or its planes where all faces are flat.
 
 use super::{Cut, Glass, ProportionError};
-use crate::math::{ImplicitSurface, Plane};
+use brillianteer_math::{ImplicitSurface, Plane};
 
 impl Glass {
     /// Returns the shape's implicit surface, in girdle radii.
@@ -37,7 +37,7 @@ mod tests {
     use super::super::glass::Sides;
     use super::super::glass_table::{CUBE, PILL, PLATE, PRISM};
     use super::*;
-    use crate::math::Polytope;
+    use brillianteer_math::Polytope;
 
     fn families() -> impl Iterator<Item = (&'static Family, Glass)> {
         [&PILL, &CUBE, &PRISM, &PLATE].into_iter().map(|family| match family.first {

@@ -4,7 +4,7 @@ use super::Cut;
 use super::family::BoundAt::{Fixed, Of};
 use super::family::{Bound, Family, Proportion, Unit};
 use super::glass::{Glass, Plate, Sides};
-use crate::math::{MOST_WAVES, STEEPEST};
+use brillianteer_math::{MOST_WAVES, STEEPEST};
 use std::f64::consts::TAU;
 
 /// The least and the greatest length, percent: far enough apart for every use, and such that squares of their

@@ -1,7 +1,7 @@
 //! The material of a stone in a cut file. [`optics`] describes the materials themselves.
 
-use crate::optics::{
-    self, Dispersion, DispersionError, INDICES, INDICES_IN_WORDS, Material, UnknownMaterial, VISIBLE_NM,
+use brillianteer_optics::{
+    Dispersion, DispersionError, INDICES, INDICES_IN_WORDS, Material, UnknownMaterial, VISIBLE_NM,
 };
 
 /// The densities that a material may have, g/cm³: from aerogel to beyond osmium.
@@ -104,7 +104,7 @@ impl MaterialRef {
         match self {
             Self::Name(name) => {
                 check_name("material", name)?;
-                Ok(optics::material(name)?.clone())
+                Ok(brillianteer_optics::material(name)?.clone())
             }
             Self::Index(index) => {
                 check_index("material", *index)?;
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn each_form_gives_the_material_it_means() {
-        let diamond = optics::material("diamond").unwrap();
+        let diamond = brillianteer_optics::material("diamond").unwrap();
         assert_eq!(MaterialRef::Name("Diamond".to_owned()).material().as_ref(), Ok(diamond));
         assert_eq!(MaterialRef::Custom(Box::new(diamond.clone())).material().as_ref(), Ok(diamond));
         let bare = MaterialRef::Index(2.42).material().unwrap();

@@ -1,7 +1,7 @@
 //! The shape of a stone of triangles.
 
 use super::outline;
-use crate::math::{Calipers, Pose, TriangleMesh, hull, span};
+use brillianteer_math::{Calipers, Pose, TriangleMesh, hull, span};
 use glam::{DQuat, DVec3};
 use std::ops::Deref;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use super::facet_zones::FacetZones;
 use super::girdle_at_mains::MeasuredGirdle;
-use crate::math::{Calipers, Edge, Facet, Polytope, SolidRef, bounds, hull};
+use brillianteer_math::{Calipers, Edge, Facet, Polytope, SolidRef, bounds, hull};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
@@ -216,7 +216,7 @@ fn knife_edge(stone: &Polytope) -> Vec<f64> {
 mod tests {
     use super::super::round_brilliant::{MODERN, RoundBrilliant};
     use super::*;
-    use crate::math::{Plane, Pose};
+    use brillianteer_math::{Plane, Pose};
 
     fn stone(given: RoundBrilliant) -> Polytope {
         let planes: Vec<Plane> = given.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
@@ -254,7 +254,7 @@ mod tests {
     /// Planes that noise has moved a little let mains end short of the girdle.
     #[test]
     fn mains_that_noise_has_moved_measure_the_girdle_all_the_same() {
-        let mut next = crate::math::mending::tests::noise(5);
+        let mut next = crate::solids::noise(5);
         for _ in 0..20 {
             let planes = RoundBrilliant { girdle_facets: 96, ..MODERN }.facets().unwrap().into_iter();
             let moved = planes.map(|(_, plane)| Plane { offset: plane.offset + 1e-4 * next(), ..plane });

@@ -1,7 +1,7 @@
 //! The error for a crossed limit: the proportion, the excess, and the remedy.
 
 use super::family::{Proportion, Unit};
-use crate::math::as_written;
+use brillianteer_math::as_written;
 use std::f64::consts::FRAC_PI_2;
 
 /// The reason why no cut of a family can have the given proportions. The message names the proportion by its key in cut

@@ -3,7 +3,7 @@
 use super::facet_zones::{EXACT, FacetZones};
 use super::outline::{AlongAxes, Outline};
 use super::{TierZone, tier_stem};
-use crate::math::{Facet, Plane, Polytope, TriangleMesh, grouped, span};
+use brillianteer_math::{Facet, Plane, Polytope, TriangleMesh, grouped, span};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -158,7 +158,7 @@ fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
 mod tests {
     use super::super::round_brilliant::MODERN;
     use super::*;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
 
     #[test]
     fn a_brilliant_is_reported_by_its_tiers() {

@@ -1,7 +1,7 @@
 //! The tiers of any cut that lists its facets. Each tier has one angle and one distance, which can be set.
 
 use super::{Cut, TierZone, tier_stem};
-use crate::math::{Plane, grouped};
+use brillianteer_math::{Plane, grouped};
 use std::collections::HashSet;
 
 /// A tier with the numbers that are set on a faceting machine. Where its facets differ, the numbers are their means.

@@ -5,7 +5,7 @@ use super::glass::Glass;
 use super::mesh_shape::MeshShape;
 use super::round_brilliant::RoundBrilliant;
 use super::tiers::Tiers;
-use crate::math::Plane;
+use brillianteer_math::Plane;
 
 /// The shape of a stone: a family with its proportions, tiers, planes, a mesh, or a glass shape.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,7 @@
 
 use super::facet_zones::FacetZones;
 use super::outline::{AlongAxes, Outline};
-use crate::math::Polytope;
+use brillianteer_math::Polytope;
 use serde::Serialize;
 
 /// The ratios and counts of a stone that stand at the top of a cutter's sheet.
@@ -101,7 +101,7 @@ fn is_of_block(name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
     use glam::{DVec2, DVec3};
 
     /// Azimuth in degrees and distance of the eight upright facets: 1.272 by 1, with cut corners.

@@ -7,7 +7,7 @@
 
 use super::facet_zones::EXACT;
 use super::{Cut, Design, DesignError, Meet, Outline, Tier, Tiers};
-use crate::math::{Plane, Polytope, PolytopeError};
+use brillianteer_math::{Plane, Polytope, PolytopeError};
 use glam::DVec3;
 use std::fmt;
 

@@ -1,7 +1,7 @@
 //! The size of a stone, given by its girdle or by its weight.
 
 use super::design::DIAMETERS_MM;
-use crate::optics::Material;
+use brillianteer_optics::Material;
 use std::fmt;
 use std::str::FromStr;
 
@@ -118,8 +118,8 @@ impl FromStr for Size {
 mod tests {
     use super::super::round_brilliant::MODERN;
     use super::*;
-    use crate::math::{Plane, Polytope};
-    use crate::optics::material;
+    use brillianteer_math::{Plane, Polytope};
+    use brillianteer_optics::material;
 
     fn brilliant() -> Polytope {
         let planes: Vec<Plane> = MODERN.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();

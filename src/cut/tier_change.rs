@@ -2,7 +2,7 @@
 
 use super::meets::{Meet, SolvedTiers};
 use super::tiers::{Indexed, Tier, TierZone, Tiers};
-use crate::math::{Plane, Polytope};
+use brillianteer_math::{Plane, Polytope};
 use glam::DVec3;
 
 /// Half of the last decimal of indices in the editor, teeth.

@@ -6,7 +6,7 @@
 use super::frosting::FROSTINGS;
 use super::meets::Meet;
 use super::names;
-use crate::math::{Plane, as_written};
+use brillianteer_math::{Plane, as_written};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

@@ -9,7 +9,7 @@ use super::proportion_error::rounded;
 use super::proportions::{Proportions, STAR_AZIMUTH};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::shape::Cut;
-use crate::math::as_written;
+use brillianteer_math::as_written;
 
 /// A property of a stone that its owner may not have meant: a proportion, and its consequence.
 ///

@@ -5,7 +5,6 @@ use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
 use super::text::unreadable;
 use super::{Failure, rasterize};
-use crate::optics::{encoded_from_linear, linear_from_encoded};
 use crate::picture::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern, Tone};
 use crate::scene::{Panorama, World};
@@ -13,6 +12,7 @@ use ::png::{BitDepth, ColorType};
 use brillianteer_base::Watch;
 use brillianteer_base::nearest;
 use brillianteer_base::{FileError, NameOrFileError};
+use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
 use std::fmt;
 use std::path::{Path, PathBuf};
 

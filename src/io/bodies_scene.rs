@@ -7,9 +7,9 @@ use super::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use super::text;
 use crate::cut::from_mesh::Up;
 use crate::cut::{MaterialRef, Size, is_printable};
-use crate::math::Pose;
 use crate::scene::{MOST_STONES, Movement};
 use brillianteer_base::FileError;
+use brillianteer_math::Pose;
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -100,7 +100,7 @@ fn path_from(folder: &Path, file: &Path) -> String {
 mod tests {
     use super::*;
     use crate::io::assembly::Assembly;
-    use crate::math::fixture::{Triangles, extruded};
+    use crate::solids::{Triangles, extruded};
     use glam::DVec2;
     use std::f64::consts::TAU;
 
@@ -150,7 +150,7 @@ mod tests {
         let turn = DQuat::from_rotation_arc(DVec3::Y, DVec3::Z);
         bodies.iter_mut().for_each(|(vertices, _)| vertices.iter_mut().for_each(|v| *v = 0.5 * (turn * *v)));
         let middle = |all: &mut dyn Iterator<Item = DVec3>| {
-            let (low, high) = crate::math::bounds(all);
+            let (low, high) = brillianteer_math::bounds(all);
             0.5 * (low + high)
         };
         // Pictures are centred, so that all may be shifted together.

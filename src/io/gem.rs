@@ -7,8 +7,8 @@ use super::cutters::{self, Gear, TierPiece, WarningList};
 use super::design_file::ImportedDesign;
 use super::text::check_size;
 use crate::cut::{MAX_PLANES, Tiers};
-use crate::math::Plane;
 use brillianteer_base::Fault;
+use brillianteer_math::Plane;
 use cursor::Cursor;
 use glam::DVec3;
 

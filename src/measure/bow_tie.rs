@@ -3,8 +3,8 @@
 
 use super::exit_sight::ExitSight;
 use super::interval::Interval;
-use crate::math::{Calipers, Polytope, hull};
 use crate::trace::beam::Beams;
+use brillianteer_math::{Calipers, Polytope, hull};
 use glam::DVec2;
 
 /// A line that passes the origin more closely than this has no triangle with it.
@@ -127,7 +127,7 @@ pub(super) fn bow_tie(beams: &Beams, polytope: &Polytope, head_deg: f64) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{area, point_in_polygon};
+    use brillianteer_math::{area, point_in_polygon};
 
     #[test]
     fn the_integral_over_a_short_edge_is_that_of_its_parts_and_of_longer_ones() {

@@ -2,8 +2,8 @@
 
 use super::facet_deviations::{FacetClasses, LeaningFacet, NotEightfold, OCTANTS, facet_deviations};
 use crate::cut::{BrilliantProportions, Outline};
-use crate::math::Facet;
 use crate::scene::Stone;
+use brillianteer_math::Facet;
 use std::f64::consts::FRAC_PI_8;
 
 /// Measures the proportions of a round brilliant of eight mains, as docs/optics.md defines them. Each is the mean over its facets,
@@ -70,7 +70,7 @@ impl FacetsOnStone<'_> {
 mod tests {
     use super::*;
     use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
     use glam::DVec2;
 
     fn fields(of: &BrilliantProportions) -> [f64; 7] {

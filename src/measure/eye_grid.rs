@@ -5,9 +5,9 @@
 //! clipped to the cells that it meets.
 
 use super::interval::Interval;
-use crate::math::{Affine, area, clip};
 use crate::trace::beam::Beams;
 use brillianteer_base::{Stopped, Watch, go_on};
+use brillianteer_math::{Affine, area, clip};
 use glam::{DMat2, DVec2, IVec2};
 
 /// The least side of a cell, girdle radii, which bounds the number of cells. In stones of more than 72 mm, cells are
@@ -262,7 +262,7 @@ mod tests {
             });
             assert!((sum - area(&corners)).abs() < 1e-14, "{sum}");
             let middle = middle / sum;
-            assert!(middle.distance(crate::math::centroid(&corners)) < side, "{middle}");
+            assert!(middle.distance(brillianteer_math::centroid(&corners)) < side, "{middle}");
         }
     }
 

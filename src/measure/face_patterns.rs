@@ -11,9 +11,9 @@ use super::light_measures::MeasureSettings;
 use super::pattern_settings::{PatternSettings, SHAPE_IS_SEEN};
 use super::virtual_facets::VirtualFacets;
 use crate::cut::FacetZones;
-use crate::math::Polytope;
 use crate::trace::beam::{Beam, Beams};
 use brillianteer_base::{Stopped, Watch, go_on};
+use brillianteer_math::Polytope;
 use serde::Serialize;
 
 /// The measures of the pattern on the face.

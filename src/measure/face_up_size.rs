@@ -1,7 +1,7 @@
 //! Spread: the size of a stone as seen from above, for its weight.
 
 use crate::cut::round_diameter;
-use crate::math::{Calipers, Polytope, hull};
+use brillianteer_math::{Calipers, Polytope, hull};
 use glam::DVec3;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -68,8 +68,8 @@ fn seen_from_above(stone: &Polytope) -> [f64; 3] {
 mod tests {
     use super::*;
     use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
-    use crate::math::Plane;
     use crate::scene::Stone;
+    use brillianteer_math::Plane;
 
     const BRILLIANT: RoundBrilliant = RoundBrilliant {
         table: 57.0,

@@ -4,8 +4,8 @@
 //! docs/optics.md, "Facet deviations".
 
 use crate::cut::{FacetZones, TierZone};
-use crate::math::{Facet, Plane, span};
 use crate::scene::Stone;
+use brillianteer_math::{Facet, Plane, span};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -290,7 +290,7 @@ pub(super) fn median(mut values: Vec<f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::cut::TOLKOWSKY;
-    use crate::math::random_bits::{GAMMA, mixed, unit};
+    use brillianteer_math::random_bits::{GAMMA, mixed, unit};
 
     fn changed(name: &str, slope_deg: f64, azimuth_deg: f64, turn_deg: f64) -> Vec<ClassDeviations> {
         let turned = |azimuth: f64| azimuth + turn_deg.to_radians();

@@ -1,8 +1,8 @@
 //! The light that a stone sends upward under an even sky, in all directions.
 
-use crate::math::SolidRef;
 use crate::scene::{Lean, Medium, View};
 use crate::trace::ray::{Camera, RayOptions, StoneTracer};
+use brillianteer_math::SolidRef;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -85,7 +85,7 @@ fn returned((tracer, solid): (&StoneTracer, SolidRef), power: f64, number: u32) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Plane, Polytope};
+    use brillianteer_math::{Plane, Polytope};
 
     #[test]
     fn a_flat_plate_lets_nothing_return_but_what_its_back_reflects() {

@@ -2,7 +2,6 @@
 //! beams and have a sampling error, but they check the beams independently.
 
 use super::figures::Figures;
-use crate::math::SolidRef;
 #[cfg(feature = "gpu")]
 use crate::scene::Film;
 use crate::scene::{Medium, Scope, View};
@@ -12,6 +11,7 @@ use crate::trace::ScopeShot;
 use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
 use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_math::SolidRef;
 use glam::DVec2;
 use rayon::prelude::*;
 

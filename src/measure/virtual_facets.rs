@@ -5,10 +5,10 @@
 //! the facets.
 
 use super::interval::Interval;
-use crate::math::random_bits::{GAMMA, mixed};
-use crate::math::{Basis, Plane, Polytope};
 use crate::trace::beam::Beams;
 use brillianteer_base::{Stopped, Watch, go_on};
+use brillianteer_math::random_bits::{GAMMA, mixed};
+use brillianteer_math::{Basis, Plane, Polytope};
 use glam::{DMat2, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
@@ -135,10 +135,10 @@ fn images(polytope: &Polytope, view: &Basis, copy: &DMat2) -> Vec<u64> {
 mod tests {
     use super::*;
     use crate::cut::TOLKOWSKY;
-    use crate::math::Plane;
     use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace};
     use brillianteer_base::unwatched;
+    use brillianteer_math::Plane;
 
     fn stone() -> Polytope {
         let planes: Vec<Plane> = TOLKOWSKY.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();

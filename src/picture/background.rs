@@ -2,7 +2,7 @@
 
 use super::NameError;
 use super::drawing::hex;
-use crate::optics::{encoded_from_linear, linear_from_encoded};
+use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
 use std::fmt;
 use std::str::FromStr;
 

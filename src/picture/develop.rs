@@ -3,7 +3,7 @@
 use super::linear::LightRows;
 use super::tone::reachable;
 use super::{Background, Bloom, Linear, Tone, background};
-use crate::optics::SrgbEncoder;
+use brillianteer_optics::SrgbEncoder;
 use rayon::prelude::*;
 use std::convert::Infallible;
 
@@ -147,7 +147,7 @@ fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, threshold: f64, encoder: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::linear_from_encoded;
+    use brillianteer_optics::linear_from_encoded;
 
     fn one(pixel: [f32; 4], manner: &Develop) -> [u8; 4] {
         let out = develop(&Linear { width: 1, height: 1, pixels: vec![pixel] }, manner);

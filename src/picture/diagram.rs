@@ -13,8 +13,8 @@ pub use style::DiagramStyle;
 
 use super::drawing::{Align, DrawnAspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
 use crate::cut::tier_stem;
-use crate::math::{Basis, Facet, grouped};
 use crate::scene::Stone;
+use brillianteer_math::{Basis, Facet, grouped};
 use glam::DVec2;
 use std::borrow::Cow;
 use svg::Document;
@@ -282,7 +282,7 @@ impl View {
 mod tests {
     use super::*;
     use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
     use glam::DVec3;
     use resvg::usvg::roxmltree;
     use std::collections::BTreeMap;

@@ -19,8 +19,8 @@ pub(super) use lettering::{
 pub(crate) use lettering::{degrees, percent};
 pub(super) use room::{LeaderRoom, overlap, room_for};
 
-use crate::math::{Basis, Facet};
 use crate::scene::Stone;
+use brillianteer_math::{Basis, Facet};
 use glam::{DVec2, DVec3};
 use lettering::MIDDLE_OF_FIGURES;
 use std::fmt::{Display, Write};
@@ -395,7 +395,7 @@ fn is_vertical(facet: &Facet) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
 
     fn cube() -> Stone {
         let sides = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];

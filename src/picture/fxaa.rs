@@ -3,8 +3,8 @@
 //! FXAA, NVIDIA white paper, 2009). Edges are sought in encoded values, whose contrasts are those that people see;
 //! pixels are mixed in linear light, in which an edge that covers half of a pixel has half of its light.
 
-use crate::optics::{SrgbEncoder, linear_from_encoded};
 use crate::picture::LUMINANCE;
+use brillianteer_optics::{SrgbEncoder, linear_from_encoded};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 

@@ -1,8 +1,8 @@
 //! A small picture of a light, which shows in lists where its sources are.
 
-use crate::optics::SrgbEncoder;
 use crate::scene::{Light, toward};
 use crate::trace::environment::{BroadLight, channels};
+use brillianteer_optics::SrgbEncoder;
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! A picture in linear light, before it is developed.
 
-use crate::optics::LUMINANCE;
+use brillianteer_optics::LUMINANCE;
 use std::borrow::Cow;
 use std::convert::Infallible;
 use std::ops::Range;

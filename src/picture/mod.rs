@@ -37,9 +37,9 @@ mod tone;
 pub mod vector;
 mod views;
 
-pub use crate::optics::LUMINANCE;
 pub use background::Background;
 pub use bloom::Bloom;
+pub use brillianteer_optics::LUMINANCE;
 pub use by_beams::ByBeams;
 pub use caption::Caption;
 pub use develop::{Develop, develop, develop_rows};

@@ -2,9 +2,9 @@
 
 use super::Rows;
 use super::layer::Layer;
-use crate::math::span;
 use crate::scene::Film;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_math::span;
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use std::ops::Range;

@@ -9,8 +9,8 @@ pub(crate) use super::drawing::{degrees, percent};
 
 use super::drawing::{Align, DIMENSION, DrawnAspect, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
 use crate::cut::{FacetZones, Outline, RoundBrilliant, TierZone};
-use crate::math::{Basis, Calipers, hull, span};
 use crate::scene::Stone;
+use brillianteer_math::{Basis, Calipers, hull, span};
 use glam::{DVec2, DVec3};
 use svg::Document;
 
@@ -323,7 +323,7 @@ pub(crate) fn spread(mut heights: Vec<f64>, highest: f64, line: f64) -> Vec<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
     use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4};
 
     /// Returns a rectangular stone with slopes of 45 degrees and these half widths, its x axis turned by `turn` radians.

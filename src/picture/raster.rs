@@ -74,7 +74,7 @@ impl<V: Value> Rows<V> {
     /// round. The values have no meaning before [`summed`](Self::summed) has been called.
     pub fn add(&mut self, polygon: &[DVec2], channel: usize, weight: V) {
         let Some(&last) = polygon.last() else { return };
-        let weight = if crate::math::area(polygon) < 0.0 { weight * -1.0 } else { weight };
+        let weight = if brillianteer_math::area(polygon) < 0.0 { weight * -1.0 } else { weight };
         let mut a = last;
         for &b in polygon {
             if a.y < b.y {
@@ -170,7 +170,7 @@ fn deposit<V: Value>(line: &mut [V], left: f64, right: f64, change: V) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Affine, area, clip};
+    use brillianteer_math::{Affine, area, clip};
 
     fn painted(polygon: &[DVec2], width: u32) -> Rows {
         let mut rows = Rows::new(0, width, width, 1);

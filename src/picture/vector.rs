@@ -2,10 +2,10 @@
 //! symmetry is written out; its copies refer to it, and name the facets that replace those of a path.
 
 use super::drawing::{hex, page};
-use crate::math::{Basis, Plane};
-use crate::optics::{LinearRgb, encoded_from_linear};
 use crate::scene::{Film, Glare, Scope, Stone, elevation_deg};
 use crate::trace::beam::Beams;
+use brillianteer_math::{Basis, Plane};
+use brillianteer_optics::{LinearRgb, encoded_from_linear};
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 use svg::Document;
 use svg::node::element::{Definitions, Description, Group, Polygon, Rectangle, Title, Use};
@@ -97,7 +97,7 @@ impl<'a> Page<'a> {
     fn polygon(&self, outline: &[DVec2]) -> Option<Polygon> {
         let map = self.film.pixels_from_image(DMat2::IDENTITY);
         let points: Vec<DVec2> = outline.iter().map(|&p| map.transform_point2(p)).collect();
-        let is_large = crate::math::area(&points).abs() > SPECK;
+        let is_large = brillianteer_math::area(&points).abs() > SPECK;
         is_large.then(|| Polygon::new().set("points", listed(&points)))
     }
 

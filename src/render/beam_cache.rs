@@ -1,9 +1,9 @@
 //! Beams that several pictures share.
 
-use crate::math::Polytope;
 use crate::scene::{Body, Medium, View};
 use crate::trace::beam::{self, BeamOptions, Beams};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_math::Polytope;
 use std::sync::Arc;
 
 /// The most sets of beams that are kept.
@@ -106,8 +106,8 @@ impl BeamCache {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Plane;
     use brillianteer_base::unwatched;
+    use brillianteer_math::Plane;
     use glam::DVec3;
 
     fn cube() -> Arc<Body> {

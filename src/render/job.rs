@@ -4,13 +4,13 @@
 use super::Wanted;
 use super::surroundings::Surroundings;
 use crate::measure::{Bounds, MeasureName, MeasureSettings};
-use crate::optics::Strata;
 use crate::picture::liquid_glass::GlassPane;
 use crate::picture::{Backdrop, Linear, Survey, enlarged};
 use crate::scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::LitScene;
+use brillianteer_optics::Strata;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

@@ -4,7 +4,6 @@ use super::card::Backend;
 use super::job::{Job, LightProduct, Steps};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
-use crate::optics::Strata;
 use crate::picture::spectral::{EachRow, Remainder, expose_rows, seen};
 use crate::picture::{ByBeams, Linear};
 #[cfg(feature = "gpu")]
@@ -14,6 +13,7 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 #[cfg(feature = "gpu")]
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use brillianteer_base::Watch;
+use brillianteer_optics::Strata;
 use std::ops::Range;
 
 /// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass and one

@@ -7,12 +7,12 @@ use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
 use crate::cut::Design;
 use crate::measure::{Bounds, Measured};
-use crate::optics::{DispersionError, INDICES, INDICES_IN_WORDS, line};
 use crate::scene::{
     ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,
     Viewpoint,
 };
 use brillianteer_base::unwatched;
+use brillianteer_optics::{DispersionError, INDICES, INDICES_IN_WORDS, line};
 use std::sync::Arc;
 
 /// The options by which a design is measured.

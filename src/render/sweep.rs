@@ -9,9 +9,9 @@ use crate::cut::{
     scaled,
 };
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
-use crate::optics::{DispersionError, INDICES, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
 use brillianteer_base::Watch;
+use brillianteer_optics::{DispersionError, INDICES, Material, line};
 use std::fmt;
 use std::sync::Arc;
 

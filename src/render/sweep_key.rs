@@ -17,7 +17,7 @@ pub enum SweepKey {
     /// move together, so that every meet stays ([`scaled`](crate::cut::scaled)). It is set before angles and
     /// distances of tiers.
     Scale(ScaledSide),
-    /// The refractive index, of [`INDICES`](crate::optics::INDICES), the same at all wavelengths.
+    /// The refractive index, of [`INDICES`](brillianteer_optics::INDICES), the same at all wavelengths.
     Index,
     /// The material, by its name.
     Material,

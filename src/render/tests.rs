@@ -4,7 +4,6 @@ mod metal;
 
 use super::*;
 use crate::cut::{Design, Family, MaterialRef};
-use crate::math::Pose;
 use crate::measure::Bounds;
 use crate::picture::Linear;
 use crate::picture::{Backdrop, liquid_glass::GlassPane};
@@ -14,6 +13,7 @@ use crate::scene::{
 };
 use crate::trace::environment::{EnvironmentMap, Lighting};
 use brillianteer_base::unwatched;
+use brillianteer_math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -286,7 +286,7 @@ fn jobs_that_were_never_written_are_checked_as_well() {
     let refused = Renderer::default().plan(&empty(hung())).err().unwrap().to_string();
     assert!(refused.starts_with("surroundings.backplate.picture: 3 by 2 pixels have 0 colours"), "{refused}");
     let mut dark = alone();
-    dark.instances[0].material.dispersion = crate::optics::Dispersion::Constant(0.5);
+    dark.instances[0].material.dispersion = brillianteer_optics::Dispersion::Constant(0.5);
     let refused = Renderer::default().plan(&job(dark, light(Steps::Strips))).err().unwrap().to_string();
     assert!(
         refused.starts_with("scene.instances[0]: material.dispersion: the dispersion gives no"),
@@ -424,9 +424,10 @@ fn figures_of_bounds_are_followed_to_them() {
 
 #[test]
 fn scopes_figures_and_maps_refuse_metal_instead_of_leaving_it_out() {
-    let surface = crate::math::ShadedSurface::creased(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]], 0.5);
-    let mesh = Arc::new(crate::math::ShadedMesh::new(surface).unwrap());
-    let plate = crate::scene::MetalInstance::new(&mesh, crate::optics::Metal::Gold);
+    let surface =
+        brillianteer_math::ShadedSurface::creased(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]], 0.5);
+    let mesh = Arc::new(brillianteer_math::ShadedMesh::new(surface).unwrap());
+    let plate = crate::scene::MetalInstance::new(&mesh, brillianteer_optics::Metal::Gold);
     let alone = Scene::alone(&specimen("round_brilliant"));
     for product in [scope(vec![Reading::Energy]), figures()] {
         let free = job(alone.clone(), product);

@@ -2,7 +2,7 @@
 
 use super::Stone;
 use super::body_data::BodyData;
-use crate::math::{ImplicitSurface, NotConvex, Polytope, SmoothSolid, SolidRef, TriangleMesh};
+use brillianteer_math::{ImplicitSurface, NotConvex, Polytope, SmoothSolid, SolidRef, TriangleMesh};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 
 use super::{Body, Stone};
 use crate::cut::FROSTINGS;
-use crate::math::{
+use brillianteer_math::{
     ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Plane, Polytope, PolytopeError, Surface,
     TriangleMesh, TriangleMeshError,
 };

@@ -1,7 +1,7 @@
 //! Companions: the stones of other designs, and the metal, that stand beside a design and its copies.
 
 use super::{Instance, MetalInstance, RingPlan, RingSeat, SceneRing, SeatKind, Specimen};
-use crate::math::Pose;
+use brillianteer_math::Pose;
 use glam::DVec3;
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 
 use super::layout::scattered;
 use super::movement::Movement;
-use crate::math::Pose;
+use brillianteer_math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! The film: the rectangle of the image plane that a picture shows.
 
-use crate::math::{Basis, SolidRef};
+use brillianteer_math::{Basis, SolidRef};
 use glam::{DAffine2, DMat2, DVec2};
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
 //! Stones and metal in one world: bodies that are built once, each carried by its pose, and each of its own material.
 
 use super::{Body, Medium, MetalInstance, Specimen};
-use crate::math::{Pose, PosedSolid, bounds};
-use crate::optics::Material;
+use brillianteer_math::{Pose, PosedSolid, bounds};
+use brillianteer_optics::Material;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

@@ -5,7 +5,7 @@
 //! own sheds light in the smooth spectra of red, green and blue; one without sheds the light's spectrum.
 
 use super::worlds::World;
-use crate::optics::Illuminant;
+use brillianteer_optics::Illuminant;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

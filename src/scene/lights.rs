@@ -3,7 +3,7 @@
 
 use super::light::{Dome, Lamp, LampField, Light, PanoramaRef, SoftBox};
 use super::worlds::World;
-use crate::optics::Illuminant;
+use brillianteer_optics::Illuminant;
 use glam::DVec3;
 use std::f64::consts::TAU;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The medium of a stone: its material at one wavelength.
 
-use crate::optics::Material;
+use brillianteer_optics::Material;
 use serde::{Deserialize, Serialize};
 
 /// A clear or absorbing medium at one wavelength, surrounded by air of index 1.

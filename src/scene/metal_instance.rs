@@ -1,7 +1,7 @@
 //! An opaque body of metal in its place.
 
-use crate::math::{Ball, Pose, ShadedMesh};
-use crate::optics::Metal;
+use brillianteer_math::{Ball, Pose, ShadedMesh};
+use brillianteer_optics::Metal;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

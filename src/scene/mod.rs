@@ -25,8 +25,8 @@ mod view;
 mod viewpoint;
 mod worlds;
 
-pub use crate::math::Pose;
 pub use body::Body;
+pub use brillianteer_math::Pose;
 pub use companions::{Companion, Companions};
 pub use copies::{Copies, MOST_COPIES};
 pub use dome_light::{DomeLight, NoDome};

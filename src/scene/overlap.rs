@@ -1,7 +1,7 @@
 //! Finds stones that overlap.
 
 use super::Instance;
-use crate::math::{Ball, Plane, Polytope, PolytopeError, PosedSolid, SolidRef};
+use brillianteer_math::{Ball, Plane, Polytope, PolytopeError, PosedSolid, SolidRef};
 use glam::DVec3;
 
 /// Stones that share no more than this part of their size only touch. It is far above the rounding errors of a
@@ -79,8 +79,8 @@ fn cross(a: &PosedSolid, b: &PosedSolid, middle: DVec3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Pose, TriangleMesh};
-    use crate::optics::Material;
+    use brillianteer_math::{Pose, TriangleMesh};
+    use brillianteer_optics::Material;
     use glam::DQuat;
     use std::sync::Arc;
 
@@ -122,8 +122,8 @@ mod tests {
             (overlapping(&[first.clone(), other.clone()]), overlapping(&[triangles(other), first]))
         };
         assert_eq!((pair(1.42), pair(1.41)), ((None, None), (Some((0, 1)), Some((0, 1)))));
-        let (vertices, all) = crate::math::fixture::clasp(1.0);
-        let clasp = TriangleMesh::new(crate::math::Surface::new(vertices, all)).unwrap();
+        let (vertices, all) = crate::solids::clasp(1.0);
+        let clasp = TriangleMesh::new(brillianteer_math::Surface::new(vertices, all)).unwrap();
         let clasp = Instance::new(Arc::new(clasp), Material::from_index("glass", 1.5).unwrap());
         // A cube is free in the clasp's gap. In its bar it is not, not even wholly inside it.
         let small = |x: f64, y: f64, scale: f64| {

@@ -1,7 +1,7 @@
 //! A ring of the program's own making among companions: its numbers, and what its metal was made of.
 
 use super::{Ring, RingError, RingSeat, SeatKind, SetStone, Specimen};
-use crate::math::{NotConvex, ShadedMesh, ShadedSurfaceError};
+use brillianteer_math::{NotConvex, ShadedMesh, ShadedSurfaceError};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -3,7 +3,7 @@
 //! ASET, Ideal-Scope and the hearts and arrows viewers are all of this kind: rings of colour around an axis, and a backing
 //! behind the stone. Borders are from `docs/optics.md`; every border and every colour is a parameter.
 
-use crate::optics::{LinearRgb, linear_from_encoded};
+use brillianteer_optics::{LinearRgb, linear_from_encoded};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 

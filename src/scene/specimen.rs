@@ -2,8 +2,8 @@
 
 use super::{Body, Medium, Stone};
 use crate::cut::{Audit, AuditSubject, Cut, Design, DesignError, FamilySolid, Tiers, Warning};
-use crate::math::{NotConvex, Plane, Polytope, PolytopeError, Pose, SmoothSolid, SolidRef};
-use crate::optics::{Material, critical_angle, line};
+use brillianteer_math::{NotConvex, Plane, Polytope, PolytopeError, Pose, SmoothSolid, SolidRef};
+use brillianteer_optics::{Material, critical_angle, line};
 use glam::DVec3;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! A stone: a polytope whose facets have names.
 
 use crate::cut::Outline;
-use crate::math::{Plane, Polytope, PolytopeError, Pose};
+use brillianteer_math::{Plane, Polytope, PolytopeError, Pose};
 use glam::DVec2;
 use std::borrow::Cow;
 

@@ -1,6 +1,6 @@
 //! A view: the direction from which a stone is seen, and the lean of scope, stone and eye against one another.
 
-use crate::math::Basis;
+use brillianteer_math::Basis;
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 

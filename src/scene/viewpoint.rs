@@ -1,7 +1,7 @@
 //! A viewpoint: the direction from which a stone is seen, in degrees, as people write and read it.
 
 use super::{Lean, Projection, Side, View};
-use crate::math::rounded;
+use brillianteer_math::rounded;
 use glam::DQuat;
 
 /// A [`View`] of a stone that is not turned, with its angles in degrees, as given.

@@ -1,10 +1,10 @@
 //! The appraisal of a design by a goal, and the reasons why there is none.
 
 use super::goal::{GoalFault, GoalMaterial};
-use crate::math::rounded;
 use crate::measure::{Interval, MeasureName};
 use crate::render::SweepError;
 use crate::scene::SpecimenError;
+use brillianteer_math::rounded;
 
 /// The reason why a design cannot be appraised, or a search cannot begin.
 #[derive(Debug, thiserror::Error)]

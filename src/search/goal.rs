@@ -80,7 +80,7 @@ pub struct AtLeastAtMost {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum GoalMaterial {
-    /// The same refractive index for every wavelength, of [`INDICES`](crate::optics::INDICES), without absorption.
+    /// The same refractive index for every wavelength, of [`INDICES`](brillianteer_optics::INDICES), without absorption.
     Index(f64),
     /// A material of the library, by its name.
     Name(String),

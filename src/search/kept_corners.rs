@@ -113,7 +113,7 @@ fn miss(facets: &[String], planes: &HashMap<String, (DVec3, f64)>) -> Option<f64
 mod tests {
     use super::*;
     use crate::cut::TOLKOWSKY;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
 
     fn stone(change: impl Fn(&str, &mut Plane)) -> Stone {
         let mut facets = TOLKOWSKY.facets().unwrap();

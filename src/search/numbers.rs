@@ -3,8 +3,8 @@
 use super::appraisal::SearchError;
 use super::goal::Goal;
 use crate::cut::{Cut, Design, MachineSetting, ScaledSide, Unit};
-use crate::math::Plane;
 use crate::render::{SweepKey, with_numbers};
+use brillianteer_math::Plane;
 
 /// The default range of a tier's angle to either side, degrees.
 const TIER_RANGE_DEG: f64 = 5.0;

@@ -8,10 +8,10 @@ use crate::cut::{
     Crown, Cut, CutClass, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
 };
 use crate::measure::MeasureSettings;
-use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
 use crate::scene::{DomeLight, Viewpoint};
 use brillianteer_base::{Stopped, unwatched};
+use brillianteer_optics::line;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

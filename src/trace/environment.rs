@@ -11,11 +11,11 @@ mod backplate;
 mod drawing;
 
 use super::DispersedRay;
-use crate::math::Basis;
 use crate::scene::{Light, LightError, Panorama, World, toward};
 pub(in crate::trace) use backplate::{ALONG, Photographed};
 pub use backplate::{Backplate, backplate_point};
 use brillianteer_base::{Stopped, Watch, unwatched};
+use brillianteer_math::Basis;
 pub use drawing::{BroadLight, channels};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;

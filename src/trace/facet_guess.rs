@@ -4,7 +4,7 @@
 //! Single precision tries twice as many planes at once as double precision would. The caller must verify the guess:
 //! near an edge it may be the facet on the other side of the edge.
 
-use crate::math::Plane;
+use brillianteer_math::Plane;
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};
 

@@ -3,7 +3,7 @@
 //! Each place is followed by the one opposite to it, on the other side of the pixel's middle. The places with even
 //! numbers fill the upper half of the pixel by the first two dimensions of I. M. Sobol's sequence (1967), the second with
 //! the direction numbers of S. Joe and F. Kuo (2008). The numbers are those of the shares of each band of wavelengths, from
-//! short to long ([`Strata::place`](crate::optics::Strata::place)). So any two neighbouring shares lie in different
+//! short to long ([`Strata::place`](brillianteer_optics::Strata::place)). So any two neighbouring shares lie in different
 //! halves of the pixel, the mean place of a few neighbouring shares is near the middle, and each part of a pixel is sampled
 //! in about all wavelengths. Nothing is random, so the same picture always gives the same result.
 

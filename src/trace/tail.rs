@@ -8,8 +8,8 @@
 
 use super::beam::{Beams, Flight, Front, SummedBeams};
 use super::ray::{ChainRoulette, PathLight, RayOptions, StoneTracer};
-use crate::math::{Polytope, point_in_polygon};
 use crate::scene::Scope;
+use brillianteer_math::{Polytope, point_in_polygon};
 use glam::{DVec2, DVec3};
 
 /// The share of a ray's light below which the ray goes on only by chance (Russian roulette).
@@ -183,10 +183,10 @@ impl<'a> Tail<'a> {
 mod tests {
     use super::*;
     use crate::cut::TOLKOWSKY;
-    use crate::math::{Plane, contains};
     use crate::scene::{ASET_CONE, Backing, Medium, View};
     use crate::trace::beam::{BeamOptions, SumOptions, sum_up, trace};
     use brillianteer_base::unwatched;
+    use brillianteer_math::{Plane, contains};
 
     fn brilliant() -> Polytope {
         let facets = TOLKOWSKY.facets().unwrap();

@@ -1,6 +1,7 @@
-//! Small solids for tests, built from an outline: some that are not convex.
+//! Small solids and surfaces for tests, some that are not convex, and noise for them.
 #![allow(dead_code, reason = "each test uses its part")]
 
+use brillianteer_math::{ShadedMesh, ShadedSurface, Surface};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -89,4 +90,50 @@ pub fn clasp(half: f64) -> Triangles {
         triangles.extend([[i, i + 8, j + 8], [i, j + 8, j]]);
     }
     (vertices, triangles)
+}
+
+/// Returns a torus around z, cut into this many parts along and across.
+pub fn torus((major, minor): (f64, f64), (along, across): (u32, u32), is_smooth: bool) -> ShadedMesh {
+    let (mut points, mut normals, mut corners) = (vec![], vec![], vec![]);
+    for k in 0..along * across {
+        let (i, j) = (k / across, k % across);
+        let [(sin, cos), (up, out)] =
+            [(i, along), (j, across)].map(|(k, of)| (TAU * f64::from(k) / f64::from(of)).sin_cos());
+        normals.push(DVec3::new(out * cos, out * sin, up));
+        points.push(DVec3::new((major + minor * out) * cos, (major + minor * out) * sin, minor * up));
+        let place = |i: u32, j: u32| (i % along) * across + j % across;
+        let [a, b, c, d] = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+        corners.extend([[a, b, c], [a, c, d]]);
+    }
+    let normals = if is_smooth { normals } else { vec![] };
+    ShadedMesh::new(ShadedSurface { points, corners, normals }).unwrap()
+}
+
+/// Makes a function that returns numbers from -1 to 1 that look random and are the same every time.
+pub fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Cuts every triangle into four.
+pub fn divided(surface: &Surface) -> Surface {
+    let mut middles = std::collections::HashMap::new();
+    let mut vertices = surface.vertices.clone();
+    let mut between = |a: u32, b: u32| {
+        *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+            vertices.push((surface.vertices[a as usize] + surface.vertices[b as usize]) / 2.0);
+            vertices.len() as u32 - 1
+        })
+    };
+    let mut triangles = vec![];
+    for &[a, b, c] in &surface.triangles {
+        let [x, y, z] = [between(a, b), between(b, c), between(c, a)];
+        triangles.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
+    }
+    Surface::new(vertices, triangles)
 }

@@ -7,7 +7,7 @@ use crate::app::panels::rows::{ChoiceRow, NUMBER, Number, explain, named_with_re
 use crate::app::panels::stone_rows::material_choice;
 use crate::app::theme;
 use crate::cut::Retargeted;
-use crate::math::signed;
+use brillianteer_math::signed;
 use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 
 /// The width of the dialog, points.

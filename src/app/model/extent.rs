@@ -1,8 +1,8 @@
 //! The extent of a stone seen from above, by which its size is stated.
 
 use crate::cut::{Cut, Design, Outline, Tiers, round_diameter};
-use crate::math::{Calipers, hull};
 use crate::scene::{Body, Specimen, Stone};
+use brillianteer_math::{Calipers, hull};
 use glam::DVec3;
 
 /// The extent of a stone seen from above, in the unit of its frame (half the diameter).
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
     use crate::app::model::document::Document;
     use crate::cut::RoundBrilliant;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
     use std::f64::consts::FRAC_PI_2;
 
     fn extent(name: &str) -> Extent {

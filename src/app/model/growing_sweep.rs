@@ -3,9 +3,9 @@
 use crate::app::studio::{SweepOrder, SweptPoint};
 use crate::cut::Design;
 use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
-use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepError, SweptStone};
 use crate::scene::Viewpoint;
+use brillianteer_optics::line;
 use std::sync::Arc;
 
 /// The points of a sweep that have been answered.

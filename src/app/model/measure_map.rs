@@ -7,9 +7,9 @@ use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use super::impossible::by_name;
 use crate::app::studio::SweepOrder;
 use crate::cut::{Cut, Design, MaterialRef, Proportion, ScaledSide, Unit};
-use crate::math::Plane;
 use crate::measure::{MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue};
+use brillianteer_math::Plane;
 use std::sync::Arc;
 
 /// The number of steps along each axis of the finest grid.

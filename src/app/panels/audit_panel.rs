@@ -6,7 +6,7 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::panels::rows::explain;
 use crate::cut::{Audit, Finding, FindingKind};
-use crate::math::fixed;
+use brillianteer_math::fixed;
 use egui::{Button, Panel, RichText, ScrollArea, Ui};
 use glam::DVec3;
 

@@ -216,10 +216,10 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::studio::FiguresOrder;
     use crate::measure::by_beams;
-    use crate::optics::line;
     use crate::scene::View;
     use crate::trace::beam;
     use brillianteer_base::unwatched;
+    use brillianteer_optics::line;
     use std::sync::Arc;
 
     /// Returns the figures of the first stone, with a share of the light left unresolved.

@@ -5,8 +5,8 @@ use crate::app::model::eye::Eye;
 use crate::app::model::figures::ShownFigures;
 use crate::app::panels::figure_lines::{Counting, FigureLine, energy, lines, zones};
 use crate::app::studio::{Grade, Tilts, Which};
-use crate::math::{fixed, signed};
 use crate::scene::Glare;
+use brillianteer_math::{fixed, signed};
 use std::fmt::Write as _;
 
 /// Returns the figures of the design compared with.

@@ -2,7 +2,7 @@
 
 use crate::app::panels::rows::{Number, Row, colour_row, number_row};
 use crate::cut::{Cut, Design, MaterialRef};
-use crate::optics::{Absorption, Dispersion, Material, line};
+use brillianteer_optics::{Absorption, Dispersion, Material, line};
 use egui::{CollapsingHeader, Id, Ui, UiBuilder};
 use std::ops::RangeInclusive;
 

@@ -9,8 +9,8 @@ pub use super::row_default::may_follow as may_be_reset;
 use super::row_focus;
 use crate::app::model::action::{Action, Actions};
 use crate::app::theme;
-use crate::math::fixed;
-use crate::optics::{encoded_from_linear, linear_from_encoded};
+use brillianteer_math::fixed;
+use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
 use egui::emath::format_with_decimals_in_range;
 use egui::{
     Color32, ComboBox, DragValue, Id, Label, Rect, RectAlign, Response, RichText, Sense, Slider,

@@ -8,8 +8,8 @@ use crate::app::panels::rows::{
     ChoiceRow, NOT_KNOWN, NUMBER, Number, UNKNOWN, named, number_row, skip_control,
 };
 use crate::cut::{Cut, Design, MaterialRef, Size};
-use crate::math::rounded;
-use crate::optics::{Material, line, materials};
+use brillianteer_math::rounded;
+use brillianteer_optics::{Material, line, materials};
 use egui::{RichText, Ui};
 use std::ops::RangeInclusive;
 

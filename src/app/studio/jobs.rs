@@ -5,7 +5,6 @@ use super::order::{FiguresOrder, Shot};
 use crate::app::lookup::backdrop;
 use crate::io::background::BackgroundRef;
 use crate::measure::Bounds;
-use crate::optics::line;
 use crate::picture::{Backdrop, Scoped, filling};
 use crate::render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
@@ -14,6 +13,7 @@ use crate::render::{
 use crate::scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use crate::trace::ray::RayOptions;
+use brillianteer_optics::line;
 use glam::DVec2;
 use std::sync::Arc;
 

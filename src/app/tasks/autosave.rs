@@ -6,8 +6,8 @@ use crate::cut::from_mesh::{Evening, Up};
 use crate::cut::{Cut, Design};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::io::{WriteError, cut_file, design_file, write};
-use crate::math::Plane;
 use crate::scene::{Copies, MOST_STONES};
+use brillianteer_math::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -278,8 +278,10 @@ mod tests {
     fn of_a_mesh_what_was_changed_is_kept_and_the_mesh_is_taken_from_its_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("heart.toml");
-        let (vertices, triangles) = crate::math::fixture::heart();
-        let solid = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let (vertices, triangles) = crate::solids::heart();
+        let solid =
+            brillianteer_math::TriangleMesh::new(brillianteer_math::Surface::new(vertices, triangles))
+                .unwrap();
         let first = Document::first().unwrap().work.design;
         let cut = Cut::Mesh(crate::cut::MeshShape(Arc::new(solid)));
         std::fs::write(&path, cut_file::write(&Design { cut, ..first })).unwrap();
@@ -299,8 +301,10 @@ mod tests {
     fn how_a_mesh_was_read_is_kept_and_work_of_an_older_program_is_found_without_it() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("heart.glb");
-        let (vertices, triangles) = crate::math::fixture::heart();
-        let solid = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let (vertices, triangles) = crate::solids::heart();
+        let solid =
+            brillianteer_math::TriangleMesh::new(brillianteer_math::Surface::new(vertices, triangles))
+                .unwrap();
         let first = Document::first().unwrap().work.design;
         let heart = Design { cut: Cut::Mesh(crate::cut::MeshShape(Arc::new(solid))), ..first };
         let specimen = crate::scene::Specimen::new(heart).unwrap();

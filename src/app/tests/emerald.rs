@@ -4,8 +4,8 @@ use super::tiers::{reach, tiers, type_text};
 use super::*;
 use crate::cut::{FindingKind, Outline};
 use crate::io::design_file;
-use crate::math::Plane;
 use crate::scene::Specimen;
+use brillianteer_math::Plane;
 use egui::Role;
 
 /// The place of a tier: a distance in half widths of the stone, or a meet in words.

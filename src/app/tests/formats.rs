@@ -5,8 +5,8 @@ use crate::app::model::document::Document;
 use crate::cut::from_mesh::Up;
 use crate::cut::{Design, Glass, MeshShape};
 use crate::io::design_file::{self, DesignFormat};
-use crate::math::{Surface, TriangleMesh, fixture};
 use crate::scene::Specimen;
+use brillianteer_math::{Surface, TriangleMesh};
 use std::sync::Arc;
 
 #[test]
@@ -93,7 +93,7 @@ fn the_direction_of_a_meshs_table_is_chosen_and_seen_at_once() {
 fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("heart.glb");
-    let (vertices, triangles) = fixture::heart();
+    let (vertices, triangles) = crate::solids::heart();
     let shape = MeshShape(Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap()));
     let first = Document::first().unwrap().work.design;
     let design = Design { name: "heart".into(), cut: Cut::Mesh(shape), ..first };
@@ -131,7 +131,7 @@ fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
 fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     let folder = tempfile::tempdir().unwrap();
     let (path, toml) = (folder.path().join("heart.glb"), folder.path().join("heart.toml"));
-    let (vertices, triangles) = fixture::heart();
+    let (vertices, triangles) = crate::solids::heart();
     let shape = MeshShape(Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap()));
     let first = Document::first().unwrap().work.design;
     let design = Design { name: "heart".into(), cut: Cut::Mesh(shape), ..first };

@@ -3,7 +3,6 @@
 
 use super::*;
 use crate::app::model::dialog::Dialog;
-use crate::optics;
 use crate::scene::Glare;
 use egui_kittest::kittest::NodeT;
 
@@ -55,7 +54,7 @@ fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
     bench.harness.run_steps(4);
     // Entries far down the list are scrolled out of sight. Diamond is always in sight, because it is chosen.
     let mut measured =
-        optics::materials().iter().filter(|m| !m.colour_is_illustrative && m.name != "diamond");
+        brillianteer_optics::materials().iter().filter(|m| !m.colour_is_illustrative && m.name != "diamond");
     let is_in_sight = |name: &str| bench.harness.query_all_by_label(name).next().is_some();
     assert!(
         measured.any(|material| is_in_sight(&material.name)),

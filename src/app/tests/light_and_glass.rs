@@ -8,11 +8,11 @@ use crate::app::setup::Setup;
 use crate::app::studio::{Shot, Smoothing};
 use crate::cut::MaterialRef;
 use crate::io::cut_file;
-use crate::math::Basis;
-use crate::optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use crate::picture::Bloom;
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::{Environment, EnvironmentMap};
+use brillianteer_math::Basis;
+use brillianteer_optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use egui::{
     Color32, ColorImage, Context, FullOutput, ImageData, Key, Modifiers, Rect, Role, Shape, TextureId,
     TexturesDelta,

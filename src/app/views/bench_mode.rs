@@ -5,7 +5,7 @@ use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::cutting::{CuttingProgress, CuttingStep, steps};
 use crate::app::polygons;
 use crate::cut::{Cut, TierZone, Tiers};
-use crate::math::{Plane, Polytope};
+use brillianteer_math::{Plane, Polytope};
 use egui::{
     Button, CentralPanel, Color32, DragValue, Key, Mesh, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
     WidgetInfo, pos2, vec2,

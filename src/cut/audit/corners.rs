@@ -201,7 +201,7 @@ impl Corners {
         edge.sides.iter().any(|&side| {
             let facet = &subject.facets()[side];
             let (low, high) =
-                crate::math::span(subject.given.stone.corners(facet).map(|corner| corner.dot(along)));
+                brillianteer_math::span(subject.given.stone.corners(facet).map(|corner| corner.dot(along)));
             edge.length > PART_OF_SIDE * (high - low)
         })
     }

@@ -3,7 +3,7 @@
 use super::finding::{Finding, FindingKind, FindingUnit};
 use super::subject::Subject;
 use crate::cut::{TierZone, tier_stem};
-use crate::math::grouped;
+use brillianteer_math::grouped;
 
 /// A facet smaller than this, in percent of the median area of the facets of its zone, is small.
 pub const SMALL_FACET: f64 = 15.0;

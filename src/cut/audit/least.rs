@@ -3,7 +3,7 @@
 use super::corners::Corners;
 use super::facets::relative_areas;
 use super::subject::{AuditSubject, Subject};
-use crate::math::Polytope;
+use brillianteer_math::Polytope;
 
 /// The smallest facet and the shortest edge of a stone, in percent; infinite where there are none.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::cut::FacetZones;
 use crate::cut::{Outline, TierZone, Tiers, tier_stem};
-use crate::math::{Facet, Polytope};
+use brillianteer_math::{Facet, Polytope};
 use glam::DVec3;
 
 /// A stone to audit, with the statements of its design.

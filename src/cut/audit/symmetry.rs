@@ -3,7 +3,7 @@
 use super::finding::{Finding, FindingKind, FindingUnit};
 use super::subject::Subject;
 use crate::cut::{TierZone, Tiers};
-use crate::math::{Plane, grouped};
+use brillianteer_math::{Plane, grouped};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 

@@ -3,7 +3,7 @@
 use super::*;
 use crate::cut::round_brilliant::{MODERN, RoundBrilliant};
 use crate::cut::{Indexed, Tier, Tiers};
-use crate::math::{Plane, Polytope, Pose};
+use brillianteer_math::{Plane, Polytope, Pose};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 

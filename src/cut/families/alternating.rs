@@ -159,7 +159,7 @@ pub fn corner_radius(sides: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Polytope;
+    use brillianteer_math::Polytope;
 
     /// The angles of PC 01.028A in degrees, row by row from the girdle, and the radius of its last ring: those of the
     /// pavilion, then those of the crown.

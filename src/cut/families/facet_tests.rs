@@ -4,7 +4,7 @@ use super::tests::{made, on_random_cuts, stone};
 use super::*;
 use crate::cut::FacetZones;
 use crate::cut::{Audit, AuditSubject, Finding, FindingKind, TierZone, audit::THIN_FACET, tier_stem};
-use crate::math::{Facet, Polytope, span};
+use brillianteer_math::{Facet, Polytope, span};
 use glam::DVec3;
 use proptest::prelude::*;
 use std::cell::RefCell;

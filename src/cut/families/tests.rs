@@ -3,7 +3,7 @@
 use super::super::outline::diameter;
 use super::*;
 use crate::cut::{FamilySolid, ProportionError, Unit, tier_stem};
-use crate::math::{Calipers, Plane, Polytope, bounds, hull};
+use brillianteer_math::{Calipers, Plane, Polytope, bounds, hull};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};

@@ -5,7 +5,7 @@ use super::cues::{Cues, Slack};
 use super::error::FromMeshError;
 use super::even::{self, FacetParts, Match};
 use super::up::Up;
-use crate::math::{Plane, Polytope, Pose, eigen, grouped, outer};
+use brillianteer_math::{Plane, Polytope, Pose, eigen, grouped, outer};
 use glam::{DMat3, DQuat, DVec3};
 use std::cmp::Ordering;
 

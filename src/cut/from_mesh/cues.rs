@@ -1,7 +1,7 @@
 //! The properties of a solid, for a direction, by which the direction of its table is found.
 
 use super::outline::LEAST_UPRIGHT;
-use crate::math::{Calipers, Facet, Polytope, area, hull, span};
+use brillianteer_math::{Calipers, Facet, Polytope, area, hull, span};
 use glam::{DVec2, DVec3};
 
 /// A facet whose normal leans less than this from square to the axis (sine) stands upright: a sixth of a degree. Files'
@@ -202,7 +202,7 @@ fn level_edge(pieces: &[Piece], within: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Plane;
+    use brillianteer_math::Plane;
 
     fn edge(low: f64, length: f64) -> Piece {
         Piece { is_upright: false, length, low, high: low + 0.01 }

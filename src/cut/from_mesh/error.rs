@@ -1,6 +1,6 @@
 //! The error of a stone that cannot be made from its facets.
 
-use crate::math::PolytopeError;
+use brillianteer_math::PolytopeError;
 use glam::DVec3;
 
 /// The reason why facets make no stone.

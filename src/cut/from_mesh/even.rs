@@ -8,8 +8,8 @@
 use super::evening::Evening;
 use super::likeness::Found;
 use super::outline::LEAST_UPRIGHT;
-use crate::math::faceting::{Face, Faceted, MODELLED, PlaneError, deviation};
-use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
+use brillianteer_math::faceting::{Face, Faceted, MODELLED, PlaneError, deviation};
+use brillianteer_math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};

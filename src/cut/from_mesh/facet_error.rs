@@ -1,7 +1,7 @@
 //! The standard errors of the slopes and azimuths of facets that were found in a scan.
 
-use crate::math::Plane;
-use crate::math::faceting::PlaneError;
+use brillianteer_math::Plane;
+use brillianteer_math::faceting::PlaneError;
 use glam::DVec3;
 
 /// The standard errors of a facet that was found in a scan, as it was found and before any evening.

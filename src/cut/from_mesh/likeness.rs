@@ -4,8 +4,8 @@
 //! even stone has fewer numbers. The frame of the even stone (the axis, its place, the mirror) is the one with the least χ².
 
 use super::even::{Even, Images, averaged};
-use crate::math::faceting::PlaneError;
-use crate::math::{Plane, Pose};
+use brillianteer_math::faceting::PlaneError;
+use brillianteer_math::{Plane, Pose};
 use glam::{DQuat, DVec3};
 
 /// The normal distribution's quantile of the probability with which noise on an even stone is taken for noise: 99.9 %.
@@ -130,6 +130,6 @@ fn step(frame: &[f64; NUMBERS], of: &impl Fn(&[f64; NUMBERS]) -> Option<f64>) ->
     }
     let most = (0..NUMBERS).map(|i| rows[i][i]).fold(f64::MIN_POSITIVE, f64::max);
     (0..NUMBERS).for_each(|i| rows[i][i] += DAMPING * most);
-    let by = crate::math::solved(rows);
+    let by = brillianteer_math::solved(rows);
     Some(std::array::from_fn(|i| frame[i] + STEP * by[i]))
 }

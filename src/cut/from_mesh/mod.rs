@@ -20,8 +20,8 @@ mod whole_table;
 #[cfg(test)]
 mod tests;
 
-use crate::math::faceting::{Faceted, deviation};
-use crate::math::{Plane, Polytope, Pose, Symmetry};
+use brillianteer_math::faceting::{Faceted, deviation};
+use brillianteer_math::{Plane, Polytope, Pose, Symmetry};
 use glam::DVec3;
 
 use aim::{Aim, aim};

@@ -2,7 +2,7 @@
 
 use super::super::names;
 use super::outline::LEAST_UPRIGHT;
-use crate::math::{Plane, grouped};
+use brillianteer_math::{Plane, grouped};
 use std::f64::consts::TAU;
 
 /// The slopes of one tier's facets differ by less than this, radians, or by the effect of noise.

@@ -1,7 +1,7 @@
 //! Facets that keep a scan from a symmetry that all its others have: noise divides a facet, or hides the edge between two.
 
 use super::even::{Match, mirrored};
-use crate::math::{Plane, Pose};
+use brillianteer_math::{Plane, Pose};
 use glam::DQuat;
 use std::f64::consts::TAU;
 

@@ -4,7 +4,7 @@ use super::error::FromMeshError;
 use super::even::Even;
 use crate::cut::Outline;
 use crate::cut::outline::ROUND;
-use crate::math::{Calipers, Plane, Polytope, Pose, hull, span};
+use brillianteer_math::{Calipers, Plane, Polytope, Pose, hull, span};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 

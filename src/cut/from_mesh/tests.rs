@@ -3,9 +3,9 @@
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::super::{Cut, Family};
 use super::*;
-use crate::math::faceting::{Face, SurfaceKind, facets};
-use crate::math::mending::tests::noise;
-use crate::math::{Pose, Surface, triangulate};
+use crate::solids::noise;
+use brillianteer_math::faceting::{Face, SurfaceKind, facets};
+use brillianteer_math::{Pose, Surface, triangulate};
 use glam::DQuat;
 use proptest::prelude::*;
 
@@ -326,7 +326,7 @@ fn a_table_that_noise_divides_is_one() {
     let (mut divided, mut whole, mut told) = (0, 0, 0);
     for seed in 1..=24 {
         let surface = spoil(&facets, Spoilt { noise: 2.5e-3, seed, ..PLAIN }).mend().unwrap().surface;
-        let SurfaceKind::Convex(found) = crate::math::faceting::facets(surface) else { continue };
+        let SurfaceKind::Convex(found) = brillianteer_math::faceting::facets(surface) else { continue };
         divided += u32::from(found.faces.iter().filter(|face| face.plane.normal.z > 0.999).count() > 1);
         let made = from_mesh(&found, Up::Given(DVec3::Z), Evening::default()).unwrap();
         let off = area(&made.facets) / (made.pose.scale.powi(2) * area(&facets)) - 1.0;

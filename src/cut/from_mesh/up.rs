@@ -1,6 +1,6 @@
 //! The direction that is up in a surface's own frame.
 
-use crate::math::Pose;
+use brillianteer_math::Pose;
 use glam::DVec3;
 
 /// The direction of a surface's table, and the source of that knowledge.

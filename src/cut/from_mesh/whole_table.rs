@@ -1,7 +1,7 @@
 //! Joins the parts of a table that noise has divided.
 
-use crate::math::Polytope;
-use crate::math::faceting::Faceted;
+use brillianteer_math::Polytope;
+use brillianteer_math::faceting::Faceted;
 
 /// Facets that lean less than this from the table may be parts of it, radians: the facets of cuts lean more, from 2 degrees on.
 const PART: f64 = 0.033;

@@ -8,7 +8,7 @@ use super::names::TierNames;
 use super::reach::REACHABLE;
 use super::solve::{Bench, TierOutcome, cutting_order};
 use super::stone::{StoneCorner, StoneSide};
-use crate::math::Plane;
+use brillianteer_math::Plane;
 use glam::DVec3;
 
 /// The most corners that are tried for the same names.

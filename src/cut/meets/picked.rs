@@ -9,7 +9,7 @@ use super::found::{NAMES, PASSES};
 use super::meet::{Meet, MeetPoint};
 use super::solve::{Bench, TierOutcome};
 use crate::cut::facet_zones::EXACT;
-use crate::math::Plane;
+use brillianteer_math::Plane;
 use glam::DVec3;
 
 /// The most corners that are tried for the same names.

@@ -4,7 +4,7 @@ use super::super::tiers::Tier;
 use super::meet::Meet;
 use super::solve::{Bench, SAME_DEPTH};
 use super::stone::{StoneCorner, StoneSide};
-use crate::math::Plane;
+use brillianteer_math::Plane;
 use glam::DVec3;
 
 /// A corner this much below the highest, in lengths of the largest distance, is one that a facet can be cut to.

@@ -7,7 +7,7 @@ use super::meet::{Meet, MeetPoint};
 use super::names::TierNames;
 use super::stone::{FARTHEST, PartStone, StoneCorner, StoneSide};
 use crate::cut::facet_zones::EXACT;
-use crate::math::Plane;
+use brillianteer_math::Plane;
 use glam::DVec3;
 use std::f64::consts::TAU;
 

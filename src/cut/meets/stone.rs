@@ -1,6 +1,6 @@
 //! The stone as it is cut so far: its corners, its girdle lines, and the points where its axis leaves it.
 
-use crate::math::{Draft, DraftCut, Plane};
+use brillianteer_math::{Draft, DraftCut, Plane};
 use glam::DVec3;
 use std::cell::OnceCell;
 

@@ -14,8 +14,8 @@ use super::{
     Crown, Cut, Design, DesignError, MaterialRef, Meet, Outline, Pavilion, RoundBrilliant, TierOutcome,
     Tiers, tier_stem,
 };
-use crate::math::{Plane, Polytope, grouped};
-use crate::optics::{critical_angle, line};
+use brillianteer_math::{Plane, Polytope, grouped};
+use brillianteer_optics::{critical_angle, line};
 use serde::Serialize;
 
 /// A vertex nearer to the lowest one than this, in units of the stone's depth, is at the culet.

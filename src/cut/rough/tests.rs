@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::cut::round_brilliant::MODERN;
-use crate::math::TriangleMesh;
-use crate::optics::material;
+use brillianteer_math::TriangleMesh;
+use brillianteer_optics::material;
 use glam::DVec3;
 use proptest::prelude::*;
 use std::sync::Arc;

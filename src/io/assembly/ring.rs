@@ -5,8 +5,8 @@ use crate::cut::{MaterialRef, Size};
 use crate::io::Failure;
 use crate::io::mesh_options::MeshPart;
 use crate::io::scene_file::RingEntry;
-use crate::math::{NotConvex, ShadedMesh};
 use crate::scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone, Specimen};
+use brillianteer_math::{NotConvex, ShadedMesh};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -135,7 +135,7 @@ mod tests {
             let corners = metal
                 .vertices()
                 .chain(ring.scene.instances.iter().flat_map(|s| s.solid().vertices().collect::<Vec<_>>()));
-            let (low, high) = crate::math::bounds(corners);
+            let (low, high) = brillianteer_math::bounds(corners);
             assert!((low + high).length() < 1e-9, "{name}");
         }
     }

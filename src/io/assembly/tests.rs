@@ -1,7 +1,7 @@
 //! Tests of how stones and scenes are loaded.
 
 use super::*;
-use crate::optics::material;
+use brillianteer_optics::material;
 
 fn load(file: impl AsRef<Path>) -> Assembly {
     Assembly::load(file.as_ref(), None, None, &MeshOptions::default()).unwrap()
@@ -180,7 +180,7 @@ fn metal_lies_where_it_is_put_beside_stones_or_alone_and_may_cut_into_them() {
     };
     let metal = "[[metal]]\nmesh = \"plate.obj\"\nmetal = \"gold\"\nturn = 90\nat = [1, 2, 3]\n";
     let both = scene(&format!("[[stone]]\ncut = \"tolkowsky\"\nsize = \"6mm\"\n{metal}")).unwrap().scene;
-    assert_eq!((both.unit_mm, both.metals[0].metal), (3.0, crate::optics::Metal::Gold));
+    assert_eq!((both.unit_mm, both.metals[0].metal), (3.0, brillianteer_optics::Metal::Gold));
     // Seen from the stone, the corners are in the places of the file.
     let at =
         |k: usize| (both.metals[0].vertices().nth(k).unwrap() - both.instances[0].pose.at) * both.unit_mm;

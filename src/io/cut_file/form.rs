@@ -8,8 +8,8 @@ use super::tier_form::TierForm;
 use super::values::{Numbers, TomlTable};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, MeshShape, Tiers};
 use crate::io::toml_format::FORMAT;
-use crate::math::{Plane, Surface, TriangleMesh};
 use brillianteer_base::Fault;
+use brillianteer_math::{Plane, Surface, TriangleMesh};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 

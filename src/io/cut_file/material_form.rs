@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::values::{Numbers, OneOf, Pairs, TomlTable};
 use crate::cut::{MaterialError, MaterialRef};
-use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 use brillianteer_base::Fault;
+use brillianteer_optics::{Absorption, AbsorptionError, Dispersion, Material};
 
 /// The wavelength, in nm, of the one sample of an absorption that is the same at every wavelength.
 const GREY_NM: f64 = 550.0;

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape};
-use crate::math::{Plane, Pose, Surface, TriangleMesh};
+use brillianteer_math::{Plane, Pose, Surface, TriangleMesh};
 
 mod materials;
 mod meets;
@@ -275,7 +275,7 @@ fn of_each_pair_one_is_given() {
 
 #[test]
 fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told() {
-    let (vertices, triangles) = crate::math::fixture::heart();
+    let (vertices, triangles) = crate::solids::heart();
     let mesh = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
     let turned = mesh.reframed(&Pose::turned(DQuat::from_rotation_x(0.3)));
     let cut = Cut::Mesh(MeshShape::framed(&turned, DQuat::IDENTITY).unwrap().0);

@@ -2,9 +2,9 @@
 
 use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, TierZone, Tiers, tier_stem};
-use crate::math::{Basis, Plane, Polytope, Symmetry};
-use crate::optics::line;
 use crate::scene::{Specimen, SpecimenError};
+use brillianteer_math::{Basis, Plane, Polytope, Symmetry};
+use brillianteer_optics::line;
 use glam::DVec3;
 use std::borrow::Cow;
 

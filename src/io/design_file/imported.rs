@@ -3,7 +3,7 @@
 use crate::cut::Design;
 use crate::cut::from_mesh::FacetError;
 use crate::io::mesh::MeshBody;
-use crate::math::Pose;
+use brillianteer_math::Pose;
 
 /// A design that was read from a file, with notes and warnings.
 #[derive(Debug, Clone, PartialEq)]

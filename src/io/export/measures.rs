@@ -8,10 +8,10 @@ use crate::measure::{
     Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings, SampledNumber,
     hemisphere_return,
 };
-use crate::optics::line;
 use crate::render::{MeasuresProduct, Product, Renderer};
 use crate::scene::{DomeLight, Film};
 use brillianteer_base::Watch;
+use brillianteer_optics::line;
 use serde_json::{Map, Value, json};
 
 /// The default part of the light that may stay unresolved in measures.

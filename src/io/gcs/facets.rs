@@ -4,8 +4,8 @@ use super::read::Reader;
 use crate::cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
 use crate::io::cutters::{self, Gear, TierPiece};
 use crate::io::numbers::Token;
-use crate::math::Plane;
 use brillianteer_base::Fault;
+use brillianteer_math::Plane;
 use glam::DVec3;
 use roxmltree::Node;
 

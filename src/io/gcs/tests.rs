@@ -2,7 +2,7 @@ use super::*;
 use crate::cut::{Cut, Design, MaterialRef, Tier, TierZone};
 use crate::io::cutters::sample::{design, others, specimen, tiers};
 use crate::io::design_file::{EncodedDesign, ImportedDesign};
-use crate::math::{Plane, Polytope};
+use brillianteer_math::{Plane, Polytope};
 use proptest::prelude::*;
 
 /// Two pyramids on one base, a quarter of their facets given by normals, the rest by angle and index.
@@ -81,7 +81,7 @@ fn stones_are_scaled_and_centred() {
         assert_eq!(warnings, Vec::<String>::new());
         let scaled = specimen(design);
         let planes: Vec<_> = scaled.design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
-        let (low, high) = crate::math::Polytope::from_planes(&planes).unwrap().bounds();
+        let (low, high) = brillianteer_math::Polytope::from_planes(&planes).unwrap().bounds();
         assert!((high.z + low.z).abs() < 1e-9);
         assert!((low.abs().max(high.abs()).truncate().max_element() - 1.0).abs() < 1e-9);
     }

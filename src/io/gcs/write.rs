@@ -4,8 +4,8 @@ use super::{COLOUR, RENDER, ROOT, VERSION};
 use crate::cut::{FinishNote, Indexed, Tier, Tiers};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
-use crate::math::{Plane, span};
 use crate::scene::Specimen;
+use brillianteer_math::{Plane, span};
 use glam::DVec3;
 
 /// A stone whose reach and height differ from those of the format by less than this is not scaled, so that it keeps

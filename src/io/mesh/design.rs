@@ -9,12 +9,12 @@ use crate::cut::from_mesh::{
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
-use crate::math::faceting::{
+use brillianteer_base::{Fault, FileError};
+use brillianteer_math::faceting::{
     Change, Faceted, NotFaceted, SurfaceKind, Unfaceted, faceted_hull, facets, hull_facets,
 };
-use crate::math::mending::{Mended, OpenPiece, SurfaceError};
-use crate::math::{Pose, Surface, Symmetry, TriangleMesh, signed};
-use brillianteer_base::{Fault, FileError};
+use brillianteer_math::mending::{Mended, OpenPiece, SurfaceError};
+use brillianteer_math::{Pose, Surface, Symmetry, TriangleMesh, signed};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -382,8 +382,8 @@ fn told_of(mended: &Mended) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::io::{cut_file, library, write_obj, write_stl};
-    use crate::math::Plane;
     use crate::scene::Specimen;
+    use brillianteer_math::Plane;
 
     /// The diamond that most demos load: every corner is one of its hull, and its kites are bent over the wrong diagonal.
     #[test]
@@ -417,7 +417,7 @@ mod tests {
 
     #[test]
     fn a_solid_that_is_not_convex_is_faceted_only_where_that_is_asked_for_and_possible() {
-        let obj = |(vertices, triangles): crate::math::fixture::Triangles| {
+        let obj = |(vertices, triangles): crate::solids::Triangles| {
             let corner = |v: &DVec3| format!("v {} {} {}\n", v.x, v.y, v.z);
             let face = |t: &[u32; 3]| format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
             let corners: String = vertices.iter().map(corner).collect();
@@ -426,7 +426,7 @@ mod tests {
         let open = |bytes: Vec<u8>, form| {
             read(bytes, Path::new("x.obj"), &MeshOptions { form, ..MeshOptions::default() })
         };
-        let heart = obj(crate::math::fixture::heart());
+        let heart = obj(crate::solids::heart());
         let found = open(heart.clone(), MeshForm::Found).unwrap();
         assert!(
             matches!(found.design.cut, Cut::Mesh(_)) && found.notes.iter().any(|note| note == NOT_CONVEX)
@@ -446,7 +446,7 @@ mod tests {
             DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
         };
         let vertices: Vec<DVec3> = (0..4000).map(at).collect();
-        let triangles = crate::math::convex_hull(&vertices).unwrap();
+        let triangles = brillianteer_math::convex_hull(&vertices).unwrap();
         let ball = obj((vertices, triangles));
         let found = open(ball.clone(), MeshForm::Found).unwrap();
         assert!(matches!(found.design.cut, Cut::Mesh(_)) && found.notes.iter().any(|note| note == CURVED));

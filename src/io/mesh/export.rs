@@ -9,8 +9,8 @@ mod ply;
 
 use super::file::{MaterialHint, STL_HEADER, Statement};
 use crate::cut::MaterialRef;
-use crate::math::{Surface, rounded, triangulate};
 use crate::scene::Body;
+use brillianteer_math::{Surface, rounded, triangulate};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::borrow::Cow;

@@ -3,8 +3,8 @@
 
 use super::file::{self, MeshFile, MeshFormat};
 use crate::io::text;
-use crate::math::{ShadedMesh, ShadedSurface};
 use brillianteer_base::FileError;
+use brillianteer_math::{ShadedMesh, ShadedSurface};
 use glam::DVec3;
 use std::fmt::Write;
 use std::path::Path;

@@ -4,8 +4,8 @@
 //!
 //! 1. `file` finds the format by the content, and reads the triangles, the material and the statement about the
 //!    stone;
-//! 2. the triangles are mended into a closed surface ([`math::mending`](crate::math::mending)); `parts` takes one of the
-//!    solids in it, whose facets are found ([`math::faceting`](crate::math::faceting));
+//! 2. the triangles are mended into a closed surface ([`math::mending`](brillianteer_math::mending)); `parts` takes one of the
+//!    solids in it, whose facets are found ([`math::faceting`](brillianteer_math::faceting));
 //! 3. `place` decides which way is up, and `size` the size of the stone;
 //! 4. `design` makes a stone of the facets ([`cut::from_mesh`](crate::cut::from_mesh)), or of the triangles where the solid is
 //!    not convex, and collects notes and warnings.

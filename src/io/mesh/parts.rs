@@ -1,9 +1,9 @@
 //! Takes one of the solids of a mesh, and says which others there are.
 
 use crate::io::mesh_options::MeshPart;
-use crate::math::mending::{Mended, OpenPiece, SolidPart};
-use crate::math::{Surface, bounds};
 use brillianteer_base::Fault;
+use brillianteer_math::mending::{Mended, OpenPiece, SolidPart};
+use brillianteer_math::{Surface, bounds};
 use glam::DVec3;
 use std::fmt::{self, Display, Formatter};
 

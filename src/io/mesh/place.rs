@@ -6,9 +6,9 @@ use super::size::MeshSize;
 use crate::cut::MaterialRef;
 use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshOptions, MeshUnit};
-use crate::math::Pose;
-use crate::math::Surface;
 use brillianteer_base::Fault;
+use brillianteer_math::Pose;
+use brillianteer_math::Surface;
 use glam::DVec3;
 
 /// A direction this near to an axis (length of the difference) goes by the axis's name.

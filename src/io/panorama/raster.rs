@@ -1,9 +1,9 @@
 //! Reads PNG and JPEG.
 
 use super::shared::{LARGEST, Raw, check_size, damaged};
-use crate::optics::linear_from_encoded;
 use crate::scene::Panorama;
 use brillianteer_base::Fault;
+use brillianteer_optics::linear_from_encoded;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use std::fs::File;
 use std::io::BufReader;

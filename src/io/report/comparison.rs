@@ -5,10 +5,10 @@ use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, provenance};
 use crate::io::Failure;
-use crate::math::fixed;
 use crate::measure::{Interval, MeasureName, measure_words};
 use crate::picture::{FigureRow, Report, ReportCell, ReportFigure, ReportPart, ReportTable, TextFlow};
 use crate::scene::DomeLight;
+use brillianteer_math::fixed;
 use std::cmp::Ordering;
 
 /// The greatest height of pictures in scopes, as a part of the width of the text.

@@ -3,11 +3,11 @@
 use super::stone::{ReportedLight, ReportedStone};
 use crate::cut::{Cut, ProportionReport, Spread};
 use crate::io::export::FigureReport;
-use crate::math::{fixed, signed};
 use crate::measure::{
     EightfoldPattern, FaceUpSize, Interval, MeasureName, OctantUnit, facet_deviations, measure_words,
 };
 use crate::picture::{ReportTable, TextFlow};
+use brillianteer_math::{fixed, signed};
 
 /// Deviations and departures below this are printed as 0, and then no facet or octant is named as the worst.
 const NOT_SHOWN: f64 = 5e-4;

@@ -1,7 +1,7 @@
 //! The fingerprint of a stone's geometry: the same for the same stone, whatever file it comes from.
 
-use crate::math::{Facet, Polytope, TriangleMesh};
 use crate::scene::Body;
+use brillianteer_math::{Facet, Polytope, TriangleMesh};
 use glam::DVec3;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -91,8 +91,8 @@ mod tests {
     use super::*;
     use crate::cut::{Crown, RoundBrilliant, TOLKOWSKY};
     use crate::io::{asc, cut_file, library};
-    use crate::math::Plane;
     use crate::scene::{Specimen, Stone};
+    use brillianteer_math::Plane;
     use std::sync::Arc;
 
     fn of(facets: &[(String, Plane)]) -> String {
@@ -129,7 +129,7 @@ mod tests {
     fn the_order_of_triangles_and_of_their_corners_does_not_change_it_and_their_place_does() {
         let stone = Stone::new(&TOLKOWSKY.facets().unwrap()).unwrap();
         let surface = TriangleMesh::of_polytope(&stone.polytope).surface().clone();
-        let of = |surface: crate::math::Surface| {
+        let of = |surface: brillianteer_math::Surface| {
             fingerprint(&Body::Mesh(Arc::new(TriangleMesh::new(surface).unwrap())))
         };
         let mut other = surface.clone();

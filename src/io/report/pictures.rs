@@ -5,7 +5,6 @@ use crate::io::export::{Reporter, ScopeStill, Viewing, note};
 use crate::io::lighting::Lighting;
 use crate::io::png_bytes::png;
 use crate::measure::facet_deviations;
-use crate::optics::linear_from_encoded;
 use crate::picture::{
     Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram,
     named, profile,
@@ -16,6 +15,7 @@ use ::png::{BitDepth, ColorType};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use brillianteer_base::Watch;
+use brillianteer_optics::linear_from_encoded;
 use std::sync::Arc;
 
 /// The bands of wavelengths of the picture under light.

@@ -9,11 +9,11 @@ use crate::io::export::{
     Event, FigureReport, HeartsReport, MeasureReport, Reporter, Viewing, WorkShares, hearts, light_measures,
     measure,
 };
-use crate::math::{Basis, Symmetry};
 use crate::measure::{Interval, MeasureName, facet_deviations};
 use crate::picture::Scoped;
 use crate::render::Renderer;
 use brillianteer_base::Watch;
+use brillianteer_math::{Basis, Symmetry};
 use glam::DVec3;
 
 /// The number of alike parts from which on a stone is measured to the finer bound of unresolved light, and both bounds.

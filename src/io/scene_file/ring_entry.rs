@@ -2,8 +2,8 @@
 
 use super::shared::{Angles, leaning};
 use crate::cut::{MaterialRef, Size};
-use crate::optics::Metal;
 use crate::scene::{Pose, Ring};
+use brillianteer_optics::Metal;
 use glam::{DQuat, DVec3};
 
 /// A ring of the program's own making in a scene, with its stones.

@@ -152,7 +152,7 @@ mod tests {
     use super::super::{is_meant_as_scene, parse, write};
     use super::*;
     use crate::cut::Size;
-    use crate::optics::Metal;
+    use brillianteer_optics::Metal;
     use glam::{DQuat, DVec3};
 
     const HALO: &str = "format = 1\nname = \"Ring\"\n[ring]\nstyle = \"halo\"\nmetal = \"gold\"\n\

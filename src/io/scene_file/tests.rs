@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::io::library;
-use crate::optics::line::SODIUM_D;
 use crate::scene::POLISHED;
+use brillianteer_optics::line::SODIUM_D;
 
 const TRILOGY: &str = "format = 1\nname = \"Three\"\nlight = \"studio\"\nlayout = \"row\"\ngap_mm = 0.6\n\
                        [[stone]]\ncut = \"modern-ideal\"\nmaterial = \"ruby\"\nsize = \"1ct\"\ncount = 2\n\

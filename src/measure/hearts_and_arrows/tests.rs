@@ -1,9 +1,9 @@
 use super::*;
 use crate::cut::{LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
-use crate::math::Plane;
 use crate::measure::by_beams;
 use crate::scene::{Scope, VIEWER_CONES_DEG};
 use brillianteer_base::unwatched;
+use brillianteer_math::Plane;
 use glam::DVec2;
 
 /// A change of a stone before it is measured.

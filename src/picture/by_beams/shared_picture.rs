@@ -6,8 +6,6 @@
 
 use super::Subject;
 use super::patches::{Patches, UNEVEN};
-use crate::math::random_bits::{GAMMA, mixed, unit};
-use crate::math::{Affine, area};
 use crate::picture::strips::strips;
 use crate::scene::Medium;
 use crate::trace::DispersedRay;
@@ -17,6 +15,8 @@ use crate::trace::beam::{
 use crate::trace::sampling::{SamplePass, colour};
 use crate::trace::shared_tail::SharedTail;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_math::random_bits::{GAMMA, mixed, unit};
+use brillianteer_math::{Affine, area};
 use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use std::cmp::Ordering;
 use std::ops::Range;

@@ -1,9 +1,9 @@
 //! Marks of an audit's findings in a facet diagram: amber outlines of facets, and rings around corners.
 
 use crate::cut::Finding;
-use crate::math::Facet;
 use crate::picture::drawing::{DrawnAspect, Sheet};
 use crate::scene::Stone;
+use brillianteer_math::Facet;
 use glam::DVec3;
 
 /// Corners nearer to one another than this, girdle radii, are one.

@@ -1,7 +1,7 @@
 //! Room for labels: inside a facet, and beside it at the end of a leader (a line that leads to the facet).
 
 use super::lettering::Frame;
-use crate::math::{Affine, area, centroid, clip};
+use brillianteer_math::{Affine, area, centroid, clip};
 use glam::DVec2;
 
 /// Cost of a leader for each corner of the stone that it passes closely, in units of its length.

@@ -35,8 +35,8 @@ pub(super) fn distinct(stone: usize, facet: u32) -> Code {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::linear_from_encoded;
     use crate::picture::luminance;
+    use brillianteer_optics::linear_from_encoded;
 
     #[test]
     fn viridis_begins_and_ends_as_published_and_grows_brighter_all_the_way() {

@@ -1,10 +1,10 @@
 //! The wireframe: edges of stones, drawn as thin even lines.
 
 use super::{Code, lay_over};
-use crate::math::{Edge, Plane, PosedSolid};
 use crate::scene::Instance;
 use crate::trace::ray::SceneProbe;
 use crate::trace::sampling::LitScene;
+use brillianteer_math::{Edge, Plane, PosedSolid};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Width of a line, in pixels.

@@ -6,8 +6,8 @@
 use super::super::drawing::{Align, DIMENSION};
 use super::{BESIDE, Dimensions, Drawing, GAP, LINE, Overflow, Span, degrees, percent};
 use crate::cut::{Derived, RoundBrilliant};
-use crate::math::Basis;
 use crate::scene::Stone;
+use brillianteer_math::Basis;
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_8;
 use svg::Document;

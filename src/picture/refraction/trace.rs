@@ -1,13 +1,13 @@
 //! Traces refraction maps.
 
 use super::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey};
-use crate::optics::Stratum;
 use crate::picture::{LUMINANCE, Linear};
 use crate::trace::DispersedRay;
 use crate::trace::environment::Environment;
 use crate::trace::ray::{Camera, First, SceneTracer, WaitingRay};
 use crate::trace::sampling::{LitScene, SamplePass, Sampling, colour};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_optics::Stratum;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 

@@ -1,7 +1,7 @@
 //! The blocks of a cutter's sheet: tiers in the order in which they are cut.
 
 use crate::cut::{Tier, TierZone, Tiers, with_finish};
-use crate::math::Polytope;
+use brillianteer_math::Polytope;
 use serde::{Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,8 +2,8 @@
 
 use super::blocks::{SheetBlock, SheetRow, blocks, cleaned, is_between_teeth, tiers_of_planes};
 use crate::cut::{Cut, MaterialRef, SheetFigures, Tiers};
-use crate::optics::{critical_angle, line};
 use crate::scene::{Specimen, Stone};
+use brillianteer_optics::{critical_angle, line};
 use serde::Serialize;
 
 /// The note about a design whose facets leave the stone open.

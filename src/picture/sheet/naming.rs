@@ -2,7 +2,7 @@
 //! takes, otherwise outside with a leader to one facet. A tier for which neither has room is named by the list alone.
 
 use super::super::drawing::{Align, Frame, Ink, LeaderRoom, Sheet, Type, room_for, text_frame, text_width};
-use crate::math::centroid;
+use brillianteer_math::centroid;
 use glam::DVec2;
 
 /// The sizes of names in facets, from the largest; the last is 5 points in print.

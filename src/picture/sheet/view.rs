@@ -5,8 +5,8 @@ use super::cutting_sheet::CuttingSheet;
 use super::index_ring::{IndexRing, LEADERS, OUTER};
 use super::naming::{Places, SeenTier, write_names};
 use crate::cut::TierZone;
-use crate::math::{Basis, Facet, span};
 use crate::scene::Stone;
+use brillianteer_math::{Basis, Facet, span};
 use glam::{DVec2, DVec3};
 
 /// Type of the captions of plans and profiles.

@@ -1,9 +1,9 @@
 //! Jobs with metal.
 
 use super::*;
-use crate::math::{ShadedMesh, ShadedSurface};
-use crate::optics::Metal;
 use crate::scene::MetalInstance;
+use brillianteer_math::{ShadedMesh, ShadedSurface};
+use brillianteer_optics::Metal;
 
 #[test]
 fn metal_is_planned_to_a_card_where_there_is_one_else_to_rays_and_never_to_beams() {

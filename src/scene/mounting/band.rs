@@ -2,7 +2,7 @@
 
 use super::skin::{CHORD_MM, chords, skin};
 use super::{OuterShape, Ring};
-use crate::math::ShadedSurface;
+use brillianteer_math::ShadedSurface;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! A stone for the metal around it: its planes in mm, in its place.
 
-use crate::math::{Affine, Ball, Plane, Polytope, Pose, clip};
+use brillianteer_math::{Affine, Ball, Plane, Polytope, Pose, clip};
 use glam::{DQuat, DVec2, DVec3};
 
 /// The gap that is left between metal and stone, in mm, so that no two surfaces are one; less than a pixel.

@@ -6,8 +6,8 @@ use super::rod::{Station, rod};
 use super::row::{SmallSizes, beads, check_count, collets, seats, sizes};
 use super::turned::{turned, wire};
 use super::{MetalPart, Mounting, Ring, RingError};
-use crate::math::Pose;
 use crate::scene::MOST_STONES;
+use brillianteer_math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -135,7 +135,7 @@ fn carry(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Plane, Polytope};
+    use brillianteer_math::{Plane, Polytope};
 
     #[test]
     fn a_halo_holds_as_many_stones_as_a_scene_may() {

@@ -7,7 +7,7 @@ use super::rod::{Station, rod};
 use super::skin::rounded;
 use super::turned::{turned, wire};
 use super::{MetalPart, Mounting, Ring, RingError, RingSeat, SeatKind};
-use crate::math::Pose;
+use brillianteer_math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 

@@ -1,6 +1,6 @@
 //! A ring as a few numbers, and its parts: plain data.
 
-use crate::math::{Pose, ShadedSurface};
+use brillianteer_math::{Pose, ShadedSurface};
 use serde::{Deserialize, Serialize};
 
 /// The style of a ring.

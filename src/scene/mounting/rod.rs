@@ -3,7 +3,7 @@
 use super::gem::MountedStone;
 use super::path::around;
 use super::skin::skin;
-use crate::math::ShadedSurface;
+use brillianteer_math::ShadedSurface;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 

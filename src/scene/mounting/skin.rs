@@ -1,6 +1,6 @@
 //! Surfaces of rows of points, and the number of chords by which curves are divided.
 
-use crate::math::ShadedSurface;
+use brillianteer_math::ShadedSurface;
 use glam::{DVec2, DVec3};
 
 /// The greatest distance of a chord from its curve, in mm: two of them are a tenth of a pixel of a picture that shows

@@ -7,7 +7,7 @@ use super::rod::{Station, rod};
 use super::skin::CHORD_MM;
 use super::*;
 use crate::cut::TOLKOWSKY;
-use crate::math::{Plane, Polytope, Pose, ShadedSurface};
+use brillianteer_math::{Plane, Polytope, Pose, ShadedSurface};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use std::collections::HashMap;

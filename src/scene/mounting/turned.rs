@@ -1,7 +1,7 @@
 //! Parts that are turned on a lathe, or bent to a circle.
 
 use super::skin::{chords, skin};
-use crate::math::ShadedSurface;
+use brillianteer_math::ShadedSurface;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 

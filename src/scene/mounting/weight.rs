@@ -1,8 +1,8 @@
 //! The weight of a ring: the volume of metal whose pieces overlap, and the densities of alloys.
 
 use super::Mounting;
-use crate::math::bounds;
-use crate::optics::Metal;
+use brillianteer_math::bounds;
+use brillianteer_optics::Metal;
 use glam::{DVec2, DVec3};
 
 /// An alloy of jewellery.

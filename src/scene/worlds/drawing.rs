@@ -1,6 +1,6 @@
 //! Draws pictures of functions with smooth edges: one sample in each pixel, and more where neighbours differ.
 
-use crate::optics::LUMINANCE;
+use brillianteer_optics::LUMINANCE;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! The polarisation of a beam that began unpolarised.
 
-use crate::optics::Fresnel;
+use brillianteer_optics::Fresnel;
 use num_complex::Complex64;
 
 /// The coherency matrix J J† / 2 of a beam with Jones matrix J (Born & Wolf, Principles of Optics, 7th ed., §10.9), along s

@@ -1,8 +1,8 @@
 //! The change of beams' exit directions with the wavelength.
 
 use super::tree::Beams;
-use crate::math::Polytope;
-use crate::optics::{cos_transmitted, reflect, refract, refracted_change};
+use brillianteer_math::Polytope;
+use brillianteer_optics::{cos_transmitted, reflect, refract, refracted_change};
 use glam::DVec3;
 
 impl Beams {

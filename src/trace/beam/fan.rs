@@ -1,8 +1,8 @@
 //! The angles between the directions in which light of two wavelengths leaves each beam.
 
 use super::tree::{Beam, Beams};
-use crate::math::Polytope;
-use crate::optics::{cos_transmitted, reflect, refract};
+use brillianteer_math::Polytope;
+use brillianteer_optics::{cos_transmitted, reflect, refract};
 use glam::DVec3;
 
 /// The directions of light of two indices.
@@ -64,9 +64,9 @@ pub(super) fn leaving(rays: Pair, normal: DVec3, indices: [f64; 2]) -> [Option<D
 mod tests {
     use super::super::{BeamOptions, grow::trace_bounces, trace};
     use crate::cut::TOLKOWSKY;
-    use crate::math::{Plane, Polytope};
     use crate::scene::{Medium, View};
     use brillianteer_base::unwatched;
+    use brillianteer_math::{Plane, Polytope};
     use glam::DVec3;
 
     #[test]

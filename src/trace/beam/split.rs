@@ -1,8 +1,8 @@
 //! Finds the facets that a beam lands on next, and the part of its outline that lands on each facet.
 
 use super::whole::{Candidate, FacetNeighbours};
-use crate::math::{Affine, Polytope, centroid};
 use crate::trace::facet_guess::FacetGuess;
+use brillianteer_math::{Affine, Polytope, centroid};
 use glam::{DVec2, DVec3};
 
 /// The cosine between a beam and a facet's normal up to which the beam counts as parallel to the facet and cannot

@@ -6,8 +6,8 @@
 //! fused, so that the result does not depend on the processor.
 
 use super::split::{GRAZING, Ray, SAME};
-use crate::math::{Affine, Plane, Polytope};
 use crate::trace::lanes::{Vec3s, dot, splat};
+use brillianteer_math::{Affine, Plane, Polytope};
 use glam::{DVec2, DVec3};
 use pulp::{Arch, Simd, WithSimd};
 

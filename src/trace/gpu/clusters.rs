@@ -1,7 +1,7 @@
 //! Groups planes into clusters, so that a shader need not try all planes of a large stone.
 
 use super::gpu_types::Cluster;
-use crate::math::Plane;
+use brillianteer_math::Plane;
 
 /// The most planes in a cluster.
 const FULL: usize = 16;

@@ -1,7 +1,7 @@
 //! Packs glass shapes (implicit surfaces) for the graphics card.
 
 use super::gpu_types;
-use crate::math::{ImplicitSurface, SurfaceParts};
+use brillianteer_math::{ImplicitSurface, SurfaceParts};
 
 /// Packs a shape's function.
 pub(super) fn field(field: &ImplicitSurface) -> gpu_types::ImplicitSurface {

@@ -193,7 +193,7 @@ both_sides! {
 }
 
 both_sides! {
-    /// A glass shape: [`crate::math::ImplicitSurface`] in units of its reach.
+    /// A glass shape: [`brillianteer_math::ImplicitSurface`] in units of its reach.
     ImplicitSurface, IMPLICIT_SURFACE_WGSL {
         /// x: half the length of the core; y: the radius of the ball that is rolled around it; z: the reach of the
         /// body without its wave; w is unused.
@@ -233,7 +233,7 @@ both_sides! {
 }
 
 both_sides! {
-    /// A box around triangles, as [`crate::math::BvhNode`].
+    /// A box around triangles, as [`brillianteer_math::BvhNode`].
     BvhNode, BVH_NODE_WGSL {
         /// xyz: the least coordinates; w: for a box of boxes, the distance in nodes to its second half; for a box of
         /// triangles, its first triangle.

@@ -5,9 +5,9 @@ use super::device::{Gpu, GpuError};
 use super::gpu_types::Body;
 use super::limits::{MOST_METALS, MOST_ROUGHNESSES};
 use super::solids::body;
-use crate::math::{Ball, ShadedMesh};
-use crate::optics::{Metal, Roughness};
 use crate::scene::MetalInstance;
+use brillianteer_math::{Ball, ShadedMesh};
+use brillianteer_optics::{Metal, Roughness};
 use bytemuck::Zeroable;
 use num_complex::Complex64;
 use std::sync::Arc;
@@ -130,7 +130,7 @@ fn finishes(metals: &[MetalInstance]) -> (Vec<Finish>, Vec<usize>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::ShadedSurface;
+    use brillianteer_math::ShadedSurface;
     use glam::DVec3;
 
     #[test]

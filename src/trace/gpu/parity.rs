@@ -11,7 +11,7 @@ use super::gpu_types;
 use super::pane::pane_source;
 use super::peak::{ARITHMETIC_WGSL, MEMORY_WGSL};
 use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
-use crate::optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
+use brillianteer_optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
 use glam::DVec3;
 use std::io::Write;
 use wgpu::naga::{front, valid};

@@ -5,9 +5,9 @@ use super::gpu_types::{Bands, Medium, ScopePixel, with};
 use super::limits::MOST_CARD_BANDS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage, StripLayer};
-use crate::math::{Pose, PosedSolid};
 use crate::trace::ScopeShot;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_math::{Pose, PosedSolid};
 use glam::DVec2;
 
 /// The most pixels in a strip. They occupy any card fully, and memory for more of them takes longer to get than the card

@@ -6,14 +6,14 @@ use super::shaders::ShaderSurface;
 use super::throttle::Throttle;
 use super::{ByCard, Gpu, GpuEnvironment, ScopePixel};
 use crate::cut::{Design, Family, MaterialRef};
-use crate::math::{ShadedMesh, ShadedSurface};
-use crate::optics::{Illuminant, Metal, Strata};
 use crate::scene::{ASET_CONE, Backing, Film, Light, MetalInstance, Scene, Scope, Specimen, View};
 use crate::trace::ScopeShot;
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass};
 use brillianteer_base::unwatched;
+use brillianteer_math::{ShadedMesh, ShadedSurface};
+use brillianteer_optics::{Illuminant, Metal, Strata};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 
 use super::gpu_types::{BvhNode, Triangle, with};
 use super::limits::{MOST_LEVELS, MOST_TRIANGLES};
-use crate::math::{self, Bvh, ShadedMesh, SolidRef, TriangleMesh};
 use crate::trace::gpu::GpuError;
+use brillianteer_math::{Bvh, ShadedMesh, SolidRef, TriangleMesh};
 use std::sync::Arc;
 
 /// The triangles of solids and of metal, the boxes around them, and the range of each body, as in [`super::gpu_types::Body`].
@@ -77,7 +77,7 @@ fn smooth_normals(mesh: &ShadedMesh, k: u32) -> Triangle {
     Triangle { a, b, c }
 }
 
-fn node(node: &math::BvhNode, first_triangle: usize) -> BvhNode {
+fn node(node: &brillianteer_math::BvhNode, first_triangle: usize) -> BvhNode {
     let start = node.start as usize + if node.count > 0 { first_triangle } else { 0 };
     // A box's corners are rounded like the corners of its triangles, so that no triangle lies outside.
     BvhNode { low: with(node.low, start as f64), high: with(node.high, f64::from(node.count)) }
@@ -86,8 +86,8 @@ fn node(node: &math::BvhNode, first_triangle: usize) -> BvhNode {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::fixture::{heart, star};
-    use crate::math::{Pose, Surface};
+    use crate::solids::{heart, star};
+    use brillianteer_math::{Pose, Surface};
 
     #[test]
     fn every_triangle_is_within_its_boxes_and_each_stone_has_its_own() {

@@ -23,7 +23,7 @@ use self::body::{PacketBody, PacketJet};
 use self::wave::PacketWave;
 use super::lanes::{Lanes, Mask, Vectors};
 use super::{PacketHit, PacketSurface};
-use crate::math::ImplicitSurface;
+use brillianteer_math::ImplicitSurface;
 use pulp::Simd;
 
 /// The greatest number of steps to a root of a convex shape; most rays take two.

@@ -2,7 +2,7 @@
 
 use super::lanes::{Lanes, Vectors};
 use super::{PacketHit, PacketSurface};
-use crate::math::{Plane, Polytope};
+use brillianteer_math::{Plane, Polytope};
 use glam::{DVec3, Vec3, Vec4};
 use pulp::Simd;
 

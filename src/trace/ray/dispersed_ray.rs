@@ -1,8 +1,8 @@
 //! The point where a ray meets a facet, and the displacement of that point over the range that the ray represents.
 
 use super::facets::FacetSearch;
-use crate::optics::{reflect, reflected_change, refract, refracted_change};
 use crate::trace::DispersedRay;
+use brillianteer_optics::{reflect, reflected_change, refract, refracted_change};
 use glam::DVec3;
 
 /// The point where a ray meets a facet, with its change over the range that the ray represents.

@@ -6,7 +6,7 @@
 //! before: they are the inner ones, and are tried one after the other.
 
 use super::search::Search;
-use crate::math::{Plane, TriangleMesh};
+use brillianteer_math::{Plane, TriangleMesh};
 use glam::DVec3;
 
 /// The most facets of a solid for which trying all planes is quicker than searching the triangles in boxes.
@@ -128,8 +128,8 @@ impl ExitPlanes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Surface;
-    use crate::math::fixture::{Triangles, clasp, extruded, heart, star};
+    use crate::solids::{Triangles, clasp, extruded, heart, star};
+    use brillianteer_math::Surface;
     use glam::DVec2;
     use proptest::prelude::*;
 

@@ -6,8 +6,8 @@
 
 use super::exit_planes::ExitPlanes;
 use super::search::Search;
-use crate::math::{FromSide, ImplicitSurface, Plane, Polytope, SolidRef, TriangleMesh};
 use crate::trace::facet_guess::FacetGuess;
+use brillianteer_math::{FromSide, ImplicitSurface, Plane, Polytope, SolidRef, TriangleMesh};
 use glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;

@@ -2,9 +2,9 @@
 
 use super::light::PathLight;
 use super::lobe_luck::LobeLuck;
-use crate::math::SolidRef;
-use crate::optics::{FrostedScatter, FrostedSurface};
 use crate::trace::DispersedRay;
+use brillianteer_math::SolidRef;
+use brillianteer_optics::{FrostedScatter, FrostedSurface};
 use glam::DVec3;
 
 /// The frosted facets of a stone.

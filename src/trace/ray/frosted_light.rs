@@ -7,8 +7,8 @@ use super::lobe_luck::LobeLuck;
 use super::path::{ExitLight, SurfaceEvent};
 use super::tree::Inbound;
 use super::{Loss, PathLight, StoneTracer};
-use crate::optics::{FrostedScatter, FrostedSurface};
 use crate::trace::DispersedRay;
+use brillianteer_optics::{FrostedScatter, FrostedSurface};
 use glam::DVec3;
 
 impl StoneTracer {

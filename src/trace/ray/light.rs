@@ -1,6 +1,6 @@
 //! The light of a ray, and how a surface splits it.
 
-use crate::optics::{fresnel, reflectance};
+use brillianteer_optics::{fresnel, reflectance};
 use glam::DVec3;
 use num_complex::Complex64;
 

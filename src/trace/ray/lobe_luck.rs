@@ -1,7 +1,7 @@
 //! The random numbers that decide by which microscopic mirror a metal reflects a ray, and how a frosted facet
 //! scatters it. They are the same in all bands of wavelengths, so that chance adds no colours.
 
-use crate::math::random_bits::{mixed, unit};
+use brillianteer_math::random_bits::{mixed, unit};
 
 /// The step of each number from one sample pass to the next, in units of 2^-64: √7 - 2, √6 - 2 and (√21 - 3)/2. They are
 /// chosen like the roulette's steps, and no sum of whole multiples of all of them is a whole number.

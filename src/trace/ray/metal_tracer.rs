@@ -1,9 +1,9 @@
 //! Reflects rays at bodies of metal.
 
-use crate::math::{Ball, Pose, ShadedMesh, SurfaceNormals};
-use crate::optics::{RoughMetal, Roughness};
 use crate::scene::MetalInstance;
 use crate::trace::DispersedRay;
+use brillianteer_math::{Ball, Pose, ShadedMesh, SurfaceNormals};
+use brillianteer_optics::{RoughMetal, Roughness};
 use glam::DVec3;
 use num_complex::Complex64;
 use std::f64::consts::PI;

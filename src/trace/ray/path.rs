@@ -3,8 +3,8 @@
 use super::facets::SolidFacets;
 use super::light::PathLight;
 use super::{Exit, Loss, MeetingRay, StoneTracer};
-use crate::optics::critical_angle;
 use crate::trace::DispersedRay;
+use brillianteer_optics::critical_angle;
 use glam::DVec3;
 
 /// A facet that a ray meets on its path.
@@ -148,9 +148,9 @@ impl StoneTracer {
 mod tests {
     use super::*;
     use crate::cut::strategy::proportions;
-    use crate::math::{Plane, Polytope};
     use crate::scene::{Medium, View};
     use crate::trace::ray::{Camera, RayOptions};
+    use brillianteer_math::{Plane, Polytope};
     use glam::DVec2;
     use proptest::prelude::*;
 

@@ -3,7 +3,7 @@
 
 use super::light::PathLight;
 use super::loss::Loss;
-use crate::math::random_bits::{mixed, unit};
+use brillianteer_math::random_bits::{mixed, unit};
 
 /// The least random number of a chain. With a smaller one, the chain would be followed until no light is left.
 const LEAST_LUCK: f64 = 1e-9;

@@ -4,8 +4,8 @@
 //! loops contain no closures, because closures would not be compiled for the wider instructions. Sums are not fused,
 //! so that the result does not depend on the processor.
 
-use crate::math::Plane;
 use crate::trace::lanes::{Vec3s, dot, splat};
+use brillianteer_math::Plane;
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};
 

@@ -2,8 +2,8 @@
 
 use super::metal_tracer::{MetalTracer, nearest_metal};
 use super::{Camera, InstanceTracer};
-use crate::optics::line;
 use crate::trace::sampling::LitScene;
+use brillianteer_optics::line;
 use glam::{DVec2, DVec3};
 
 /// The index of a stone, and the facet and the distance at which a ray meets it.

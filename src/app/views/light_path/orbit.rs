@@ -1,7 +1,7 @@
 //! The direction from which the drawing shows the stone.
 
 use crate::app::arrows;
-use crate::math::Basis;
+use brillianteer_math::Basis;
 use egui::{Key, Response, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;

@@ -1,7 +1,7 @@
 //! Tests of materials in a cut file: by name, by index, or as a table, and the faults of such a table.
 
 use super::*;
-use crate::optics::{self, Absorption, Dispersion, Material};
+use brillianteer_optics::{Absorption, Dispersion, Material};
 
 fn material(text: &str) -> Result<MaterialRef, FileError> {
     parse(&with("\"diamond\"", text), "x.toml").map(|design| design.material)
@@ -67,7 +67,7 @@ fn a_material_is_a_name_an_index_or_a_table() {
 #[test]
 fn every_known_material_may_be_written_out_in_full() {
     let design = parse(TOLKOWSKY, "x.toml").unwrap();
-    for known in optics::materials() {
+    for known in brillianteer_optics::materials() {
         let design = Design { material: MaterialRef::Custom(Box::new(known.clone())), ..design.clone() };
         assert_eq!(parse(&write(&design), "x.toml"), Ok(design));
     }

@@ -3,8 +3,8 @@
 use super::super::{parse, write};
 use super::materials::custom;
 use crate::cut::{Cut, Design, MaterialRef, strategy};
-use crate::math::Plane;
-use crate::optics::{self, Absorption, Dispersion, MOST_PER_MM, Material};
+use brillianteer_math::Plane;
+use brillianteer_optics::{Absorption, Dispersion, MOST_PER_MM, Material};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -52,7 +52,8 @@ fn materials() -> impl Strategy<Value = MaterialRef> {
     let densities = prop::option::of(0.1..=30.0);
     let texts = (names(), any::<String>(), any::<String>());
     prop_oneof![
-        prop::sample::select(optics::materials()).prop_map(|known| MaterialRef::Name(known.name)),
+        prop::sample::select(brillianteer_optics::materials())
+            .prop_map(|known| MaterialRef::Name(known.name)),
         (1.0..=5.0).prop_map(MaterialRef::Index),
         (texts, dispersions(), [absorptions(), absorptions()], any::<bool>(), (range, densities)).prop_map(
             |((name, description, source), dispersion, [o, e], pleochroic, (valid_nm, density))| {

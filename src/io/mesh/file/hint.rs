@@ -5,7 +5,7 @@
 //! transmittance at one wavelength, with straight lines between them.
 
 use crate::cut::{MaterialError, MaterialRef};
-use crate::optics::{Absorption, Dispersion, MOST_PER_MM, Material, line};
+use brillianteer_optics::{Absorption, Dispersion, MOST_PER_MM, Material, line};
 
 /// The wavelengths in nm that stand for red, green and blue: about the middle of the range that each primary of sRGB
 /// excites.
@@ -137,12 +137,11 @@ impl MaterialHint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics;
 
     #[test]
     fn a_material_comes_back_from_its_hint() {
         for name in ["diamond", "ruby", "sapphire"] {
-            let material = optics::material(name).unwrap();
+            let material = brillianteer_optics::material(name).unwrap();
             let hint = MaterialHint::of(material, 0.5);
             let back = hint.material(0.5).unwrap().unwrap().material().unwrap();
             // The distance that the colour is given for, mm.

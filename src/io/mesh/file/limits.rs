@@ -2,8 +2,8 @@
 
 use super::parsed_mesh::ParsedMesh;
 use crate::io::text::content;
-use crate::math::Surface;
 use brillianteer_base::Fault;
+use brillianteer_math::Surface;
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes; a buffer beside it may be as large again, and all buffers together.

@@ -24,8 +24,8 @@ mod tests;
 
 use crate::io::encoding::{decoded, in_utf8};
 use crate::io::foreign;
-use crate::math::Surface;
 use brillianteer_base::{Fault, FileError};
+use brillianteer_math::Surface;
 use glam::DVec3;
 use std::path::Path;
 

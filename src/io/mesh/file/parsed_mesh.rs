@@ -1,7 +1,7 @@
 //! A mesh in the form that the readers of all formats return.
 
 use super::hint::MaterialHint;
-use crate::math::Surface;
+use brillianteer_math::Surface;
 use glam::DVec3;
 
 /// The result of a format's reader, which does not yet have its file's name.

@@ -1,6 +1,6 @@
 //! Gathers the polygons of a file as triangles.
 
-use crate::math::{Surface, polygon_triangles};
+use brillianteer_math::{Surface, polygon_triangles};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};

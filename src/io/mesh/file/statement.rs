@@ -7,8 +7,8 @@
 //! points and middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
 
 use crate::cut::MaterialRef;
-use crate::math::{self, Surface, rounded};
 use brillianteer_base::Fault;
+use brillianteer_math::{Surface, rounded};
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;
 
@@ -70,7 +70,7 @@ impl Measures {
 /// Returns the lowest and the highest point of a surface along a unit vector.
 pub fn span(surface: &Surface, up: DVec3) -> [f64; 2] {
     let heights = surface.triangles.iter().flatten().map(|&v| surface.vertices[v as usize].dot(up));
-    math::span(heights).into()
+    brillianteer_math::span(heights).into()
 }
 
 /// The place of a solid in its file, compared with the statement.

@@ -15,10 +15,9 @@ use crate::cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
-use crate::math::Plane;
-use crate::math::faceting::{Faceted, SurfaceKind, facets};
-use crate::optics;
 use crate::scene::{Body, Specimen, Stone};
+use brillianteer_math::Plane;
+use brillianteer_math::faceting::{Faceted, SurfaceKind, facets};
 use glam::{DQuat, DVec3};
 
 fn brilliant(girdle_facets: u32) -> Stone {
@@ -99,7 +98,7 @@ fn a_ply_holds_triangles_alone_because_many_programs_read_no_polygons() {
 
 #[test]
 fn what_is_written_comes_back_with_its_planes_and_names() {
-    let clear = MaterialHint::of(optics::material("diamond").unwrap(), 1.0);
+    let clear = MaterialHint::of(brillianteer_optics::material("diamond").unwrap(), 1.0);
     for (count, scale) in [(16, 1.0), (16, 3.25), (96, 3.25)] {
         let (stone, body) = (brilliant(count), body(count));
         let obj = open(write_obj(&body, "a stone", scale, None).into_bytes());
@@ -128,7 +127,7 @@ fn what_is_written_comes_back_with_its_planes_and_names() {
 #[test]
 fn a_stone_posed_from_a_file_is_the_one_that_was_written() {
     let (stone, body) = (brilliant(96), body(96));
-    let clear = MaterialHint::of(optics::material("diamond").unwrap(), 1.0);
+    let clear = MaterialHint::of(brillianteer_optics::material("diamond").unwrap(), 1.0);
     let files = [
         (write_obj(&body, "x", 3.0, None).into_bytes(), 1e-12),
         (write_stl(&body, 3.0, None).unwrap(), 1e-6),
@@ -151,7 +150,7 @@ fn a_stone_posed_from_a_file_is_the_one_that_was_written() {
 
 #[test]
 fn the_material_of_a_glb_comes_back() {
-    let ruby = optics::material("ruby").unwrap();
+    let ruby = brillianteer_optics::material("ruby").unwrap();
     let hint = MaterialHint::of(ruby, 1000.0);
     let back = open(write_glb(&body(16), "ruby", 2e-3, (&hint, None)).unwrap()).hint.unwrap();
     let near = |a: Option<f64>, b: Option<f64>| (a.unwrap() - b.unwrap()).abs() < 1e-6;
@@ -295,8 +294,10 @@ fn a_gem_keeps_its_material_through_glb_at_any_size() {
         }
     }
     // Absorption that a file gives per metre is that of the stone, whatever its size.
-    let ruby = optics::material("ruby").unwrap();
-    let mean = |m: &optics::Material| m.absorption.iter().map(|a| a.coefficient(550.0)).sum::<f64>() / 2.0;
+    let ruby = brillianteer_optics::material("ruby").unwrap();
+    let mean = |m: &brillianteer_optics::Material| {
+        m.absorption.iter().map(|a| a.coefficient(550.0)).sum::<f64>() / 2.0
+    };
     for radius_mm in [0.5, 3.25, 20.0] {
         let hint = MaterialHint::of(ruby, 1000.0);
         let bytes = write_glb(&body(16), "ruby", 1e-3 * radius_mm, (&hint, None)).unwrap();

@@ -1,10 +1,10 @@
 //! Tests of the traced pane, and of its differences from the drawn pane.
 
 use super::*;
-use crate::optics::line;
 use crate::picture::liquid_glass::LightFrom;
 use crate::picture::liquid_glass::tests::{apart, even, full, none, pattern};
 use brillianteer_base::unwatched;
+use brillianteer_optics::line;
 use glam::DVec4;
 use std::ops::ControlFlow;
 use std::sync::Mutex;

@@ -2,7 +2,7 @@
 
 use super::super::tree::Beams;
 use super::PlaneDerivatives;
-use crate::math::{Plane, Polytope};
+use brillianteer_math::{Plane, Polytope};
 use glam::{DMat2, DVec3};
 
 impl Beams {

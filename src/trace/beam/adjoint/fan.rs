@@ -3,8 +3,8 @@
 use super::super::fan::{Pair, leaving};
 use super::super::tree::Beams;
 use super::PlaneDerivatives;
-use crate::math::Polytope;
-use crate::optics::cos_transmitted;
+use brillianteer_math::Polytope;
+use brillianteer_optics::cos_transmitted;
 use glam::DVec3;
 
 impl Beams {

@@ -15,7 +15,7 @@ mod pass;
 mod step;
 
 use super::tree::Beams;
-use crate::math::Polytope;
+use brillianteer_math::Polytope;
 use glam::DVec3;
 use pass::ReversePass;
 
@@ -102,8 +102,8 @@ mod tests {
     use super::super::{BeamOptions, grow::trace_bounces};
     use super::*;
     use crate::cut::TOLKOWSKY;
-    use crate::math::Plane;
     use crate::scene::{Medium, View};
+    use brillianteer_math::Plane;
 
     const BOUNCES: u32 = 5;
 

@@ -3,7 +3,7 @@
 use super::super::tree::{BeamNode, Beams, NO_EXIT, ROOT};
 use super::step::{BeamState, LandingStep, StateAdjoint};
 use super::{BeamPartials, PlaneDerivatives};
-use crate::math::{Affine, Moments, Polytope, moments_along_edge, moments_of_decay};
+use brillianteer_math::{Affine, Moments, Polytope, moments_along_edge, moments_of_decay};
 use glam::{DVec2, DVec3};
 
 /// Lines of an image that are nearer than this to one another count as one; the unit is the girdle radius.

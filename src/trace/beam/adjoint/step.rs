@@ -5,8 +5,8 @@ use super::super::follow::{SQUARE_ON, s_axis};
 use super::super::grow::entry_points;
 use super::super::split::Ray;
 use super::super::tree::Beams;
-use crate::math::{Affine, Moments, Plane};
-use crate::optics::{Fresnel, fresnel, reflect, refract};
+use brillianteer_math::{Affine, Moments, Plane};
+use brillianteer_optics::{Fresnel, fresnel, reflect, refract};
 use glam::{DVec2, DVec3};
 
 /// The light that goes on from a facet, without its outline.

@@ -1,9 +1,9 @@
 //! The weight and polarisation of light that a group of wavelengths shares.
 
 use super::slanted_light::{Slant, SlantedLight};
-use crate::optics::fresnel;
 use crate::trace::beam::coherency::Coherency;
 use crate::trace::beam::follow::s_axis;
+use brillianteer_optics::fresnel;
 use glam::DVec3;
 
 /// Axes s of a group's ends whose cosine is below this are not averaged.

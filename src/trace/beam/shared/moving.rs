@@ -9,7 +9,7 @@
 use super::super::split::{Facets, GRAZING, MISSED, NO_FACET, Ray, SAME};
 use super::super::whole::Candidate;
 use super::slanted_light::SlantedLight;
-use crate::math::Affine;
+use brillianteer_math::Affine;
 use glam::{DVec2, DVec3};
 
 /// The most lengths of an edge by which a corner on it may drift within a group of wavelengths.

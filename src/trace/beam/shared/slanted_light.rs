@@ -1,8 +1,8 @@
 //! The directions of light of several wavelengths inside a stone, behind the facet by which it entered.
 
 use super::super::grow::entry_points;
-use crate::math::{Basis, Plane};
-use crate::optics::{reflect, refract, refracted_change};
+use brillianteer_math::{Basis, Plane};
+use brillianteer_optics::{reflect, refract, refracted_change};
 use glam::{DVec2, DVec3};
 
 /// The least square of the cosine of refraction by which slants are divided.

@@ -3,7 +3,7 @@
 use super::super::fields::field;
 use super::super::gpu_types;
 use super::{card, run};
-use crate::math::{ImplicitForm, ImplicitSurface, Jet};
+use brillianteer_math::{ImplicitForm, ImplicitSurface, Jet};
 use glam::{DMat3, DVec3};
 
 /// A shader that takes points, each with the number of its shape, and returns the function's gradient and value there

@@ -1,8 +1,8 @@
 //! Parity of metal: random numbers and what rough surfaces reflect, on the card and in the library.
 
 use super::{card, run};
-use crate::math::random_bits::{mixed, unit};
-use crate::optics::{Metal, RoughMetal, Roughness};
+use brillianteer_math::random_bits::{mixed, unit};
+use brillianteer_optics::{Metal, RoughMetal, Roughness};
 use glam::DVec3;
 use num_complex::Complex64;
 

@@ -4,17 +4,17 @@
 use super::super::limits::{MOST_METALS, MOST_ROUGHNESSES};
 use super::super::{ByCard, Gpu, GpuEnvironment, GpuError};
 use super::card;
-use crate::math::fixture::heart;
-use crate::math::{
-    ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, ShadedMesh, ShadedSurface, Surface, TriangleMesh,
-    torus,
-};
-use crate::optics::{Absorption, Material, Metal, Strata};
 use crate::scene::{Body, Film, Instance, Light, MetalInstance, Scene, View};
+use crate::solids::heart;
+use crate::solids::torus;
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::{ByRays, RayOptions};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
 use brillianteer_base::{Stopped, unwatched};
+use brillianteer_math::{
+    ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, ShadedMesh, ShadedSurface, Surface, TriangleMesh,
+};
+use brillianteer_optics::{Absorption, Material, Metal, Strata};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 

@@ -5,7 +5,7 @@
 //! positive side of each axis of symmetry.
 
 use super::super::lanes::{Lanes, Mask, Vectors};
-use crate::math::{ImplicitSurface, SurfaceParts};
+use brillianteer_math::{ImplicitSurface, SurfaceParts};
 use pulp::Simd;
 
 /// A convex body around the origin.

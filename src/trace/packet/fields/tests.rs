@@ -2,7 +2,7 @@
 
 use super::super::lanes::{Lanes, Vectors};
 use super::*;
-use crate::math::ImplicitForm;
+use brillianteer_math::ImplicitForm;
 use glam::{DVec3, Vec3};
 use pulp::{Arch, WithSimd};
 

@@ -1,7 +1,7 @@
 //! The wave by which a plate is sheared, in f32. It is the twin of `math/implicit/wave.rs`.
 
 use super::super::lanes::{Lanes, Vectors};
-use crate::math::ImplicitSurface;
+use brillianteer_math::ImplicitSurface;
 use pulp::Simd;
 use std::f32::consts::TAU;
 

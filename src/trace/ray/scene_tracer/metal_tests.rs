@@ -1,13 +1,14 @@
 //! Scenes with metal: all light is accounted for, chance changes no mean, and smooth normals change no outline.
 
 use super::*;
-use crate::math::{Plane, Polytope, Pose, ShadedMesh, ShadedSurface, torus};
-use crate::optics::{Metal, Strata, material, metal_reflectance};
 use crate::scene::{Film, Instance, Light, MetalInstance, Scene, View};
+use crate::solids::torus;
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::Sampling;
 use brillianteer_base::unwatched;
+use brillianteer_math::{Plane, Polytope, Pose, ShadedMesh, ShadedSurface};
+use brillianteer_optics::{Metal, Strata, material, metal_reflectance};
 use glam::DVec3;
 use num_complex::Complex64;
 use std::sync::Arc;
@@ -185,7 +186,7 @@ fn a_mirror_shows_what_lies_in_its_direction_in_the_colour_of_its_metal() {
         let back = direction.with_z(-direction.z);
         let seen = lit_scene.environment.radiance(DVec3::ZERO, back, DVec3::ZERO);
         let reflected = |metal: Metal| {
-            let band = |(s, response): (&crate::optics::Stratum, _)| {
+            let band = |(s, response): (&brillianteer_optics::Stratum, _)| {
                 let [of_s, of_p] = metal_reflectance(-direction.z, metal.index(s.at(0.5)));
                 colour(response, seen * (0.5 * (of_s + of_p)))
             };

@@ -1,10 +1,10 @@
 use crate::cut::strategy::proportions;
-use crate::math::fixture::{Triangles, clasp, heart, star};
-use crate::math::{Plane, Polytope, Pose, Surface, TriangleMesh};
-use crate::optics::fresnel;
 use crate::scene::{Medium, Projection, View};
+use crate::solids::{Triangles, clasp, heart, star};
 use crate::trace::DispersedRay;
 use crate::trace::ray::{Camera, Exit, Loss, MeetingRay, RayOptions, Roulette, StoneTracer};
+use brillianteer_math::{Plane, Polytope, Pose, Surface, TriangleMesh};
+use brillianteer_optics::fresnel;
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! Tests of real meshes, where they are on the machine, and of large meshes that the tests make.
 
 use super::*;
-use crate::math::mending::tests::divided;
+use crate::solids::divided;
 
 /// Reads one of the real meshes; prints a line and returns `None` where their folder is not there.
 fn real(name: &str) -> Option<MeshFile> {
