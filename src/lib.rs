@@ -27,6 +27,9 @@
 #[cfg(test)]
 extern crate self as brillianteer;
 #[cfg(test)]
+#[path = "../tests/common/proportions.rs"]
+mod random;
+#[cfg(test)]
 #[path = "../tests/common/solids.rs"]
 mod solids;
 
@@ -34,7 +37,6 @@ mod solids;
 pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod cut;
 pub mod io;
 pub mod measure;
 pub mod picture;
@@ -45,6 +47,7 @@ pub mod trace;
 
 /// What every room shares: work that can be watched and stopped, and faults in files.
 pub use brillianteer_base as base;
+pub use brillianteer_cut as cut;
 pub use brillianteer_math as math;
 pub use brillianteer_optics as optics;
 pub use glam;

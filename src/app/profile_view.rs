@@ -17,9 +17,9 @@ mod sight;
 #[cfg(test)]
 mod tests;
 
-use crate::cut::{Cut, ProfileHandle};
 use crate::picture::DrawnMarks;
 use crate::scene::Stone;
+use brillianteer_cut::{Cut, ProfileHandle};
 use egui::accesskit::Role;
 use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Sense, Tooltip, Ui, WidgetInfo};
 use frame::{MeasuredProfile, Offered, ProfileFrame};

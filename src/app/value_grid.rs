@@ -1,6 +1,6 @@
 //! The grid on which a proportion is set, so that it stays within its limits.
 
-use crate::cut::{Cut, Proportion};
+use brillianteer_cut::{Cut, Proportion};
 
 /// A bound beyond any proportion, which keeps requested values finite.
 const FARTHEST: f64 = 1e9;
@@ -72,7 +72,7 @@ fn last_possible<T>(mut good: f64, mut bad: f64, at: impl Fn(f64) -> Option<T>) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, Pavilion, RoundBrilliant, TOLKOWSKY};
+    use brillianteer_cut::{Crown, Pavilion, RoundBrilliant, TOLKOWSKY};
 
     fn tolkowsky() -> Cut {
         Cut::RoundBrilliant(TOLKOWSKY)

@@ -1,6 +1,6 @@
 //! Prints the findings of an audit for `info`: as a list for people, and as JSON.
 
-use crate::cut::{Audit, Finding, FindingKind, tier_stem};
+use brillianteer_cut::{Audit, Finding, FindingKind, tier_stem};
 use brillianteer_math::{fixed, grouped};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -6,10 +6,10 @@ use super::console::say;
 use super::meets::KnownMeets;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
-use crate::cut::{Cut, Design};
 use crate::io::bodies_scene::BodiesScene;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{Failure, WriteError, is_standard, scene_file, write};
+use brillianteer_cut::{Cut, Design};
 use clap::Args;
 use std::path::{Path, PathBuf};
 

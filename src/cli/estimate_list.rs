@@ -1,9 +1,9 @@
 //! The list of a stone's class, estimated after what GIA publishes.
 
 use super::specimen::LoadedSpecimen;
-use crate::cut::{ClassEstimate, Unit};
 use crate::io::Failure;
 use crate::measure::brilliant_proportions;
+use brillianteer_cut::{ClassEstimate, Unit};
 use brillianteer_math::fixed;
 use serde_json::{Value, json};
 use std::fmt::Write;

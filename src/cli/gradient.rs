@@ -3,10 +3,10 @@
 use super::console::{json, print, say};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
-use crate::cut::{Cut, ScaledSide, Unit};
 use crate::io::Failure;
 use crate::measure::{Interval, MeasureName};
 use crate::render::{GradedStone, LEAST_TIER_DEG, MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
+use brillianteer_cut::{Cut, ScaledSide, Unit};
 use brillianteer_math::signed;
 use clap::Args;
 use serde_json::{Map, Value};

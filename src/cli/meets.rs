@@ -1,9 +1,9 @@
 //! The meets of a design and their origins, for `info --meets` and `convert --meets`.
 
 use super::console::say;
-use crate::cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
 use crate::io::as_tiers;
 use crate::scene::Specimen;
+use brillianteer_cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
 use brillianteer_math::fixed;
 use serde_json::{Value, json};
 use std::borrow::Cow;

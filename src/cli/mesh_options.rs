@@ -1,9 +1,9 @@
 //! The options of every command that reads meshes.
 
 use super::choice::{MESH_FORMS, name_of, one_of};
-use crate::cut::Size;
-use crate::cut::from_mesh::{Evening, Up};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
+use brillianteer_cut::Size;
+use brillianteer_cut::from_mesh::{Evening, Up};
 use clap::Args;
 use glam::DVec3;
 

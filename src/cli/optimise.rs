@@ -8,7 +8,6 @@ use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
 use super::specimen::{lacks_fire, no_fire, note_no_fire};
 use super::specimen_options::SpecimenOptions;
-use crate::cut::Design;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
 use crate::io::{Failure, check_writable, goal_file};
@@ -18,6 +17,7 @@ use crate::search::{
     DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
 };
 use brillianteer_base::unwatched;
+use brillianteer_cut::Design;
 use clap::Args;
 use std::ops::ControlFlow;
 use std::path::PathBuf;

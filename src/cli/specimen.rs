@@ -1,14 +1,14 @@
 //! Reads and builds the stone that a command works on.
 
 use super::console::say;
-use crate::cut::from_mesh::FacetError;
-use crate::cut::{MaterialError, MaterialRef, Size};
 use crate::io::built_design::{BuiltDesign, OtherReadings};
 use crate::io::mesh::MeshBody;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, is_standard};
 use crate::measure::MeasureName;
 use crate::scene::{self, Stone};
+use brillianteer_cut::from_mesh::FacetError;
+use brillianteer_cut::{MaterialError, MaterialRef, Size};
 use brillianteer_optics::{Dispersion, Material};
 use std::collections::BTreeSet;
 use std::ops::Deref;

@@ -5,7 +5,6 @@ use super::measure_taking::{UNRESOLVED, settings_of};
 use super::spin_motion::{SpinMotion, SpinPose, StoneMotion};
 use super::spin_pictures::SpinPictures;
 use super::sweep_plot::UNIT;
-use crate::cut::Design;
 use crate::io::export::caption_pixels;
 use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
 use crate::io::{Failure, rasterize, with_cover};
@@ -13,6 +12,7 @@ use crate::measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use crate::scene::Lean;
 use brillianteer_base::Watch;
+use brillianteer_cut::Design;
 use brillianteer_optics::line;
 
 /// The least width of pictures with curves, in pixels.

@@ -1,13 +1,13 @@
 //! The plot that `sweep` draws: curves over one axis, a map over two, or a family of curves: one for each azimuth or material.
 
 use super::plot_file::PlotFile;
-use crate::cut::Cut;
 use crate::io::Failure;
 use crate::io::plot::{
     COLOURS_OF_CURVES, PLOT_SIZE, PlotAxis, PlotCurve, PlotError, PlotPanel, curves, heat_map, panels,
 };
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue, SweptStone};
+use brillianteer_cut::Cut;
 use std::path::Path;
 
 /// A plot that collects the points of a sweep.

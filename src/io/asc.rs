@@ -9,8 +9,8 @@ use super::design_file::ImportedDesign;
 use super::encoding::{self, is_padding};
 use super::numbers::{NumberReader, Token};
 use super::text::check_size;
-use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers};
 use brillianteer_base::Fault;
+use brillianteer_cut::{Indexed, MAX_PLANES, Tier, Tiers};
 use std::borrow::Cow;
 
 #[cfg(test)]

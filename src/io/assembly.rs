@@ -6,11 +6,11 @@ use super::mesh::read_shaded;
 use super::mesh_options::{MeshOptions, MeshPart};
 use super::scene_file::{self, Entry, MetalEntry, SceneFile};
 use super::{Failure, is_standard, library};
-use crate::cut::{Design, MaterialRef, Size};
 use crate::scene::{
     Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene, Specimen, Viewpoint,
     overlapping,
 };
+use brillianteer_cut::{Design, MaterialRef, Size};
 use brillianteer_math::{ShadedMesh, bounds};
 use brillianteer_optics::{Material, Metal};
 use glam::{DQuat, DVec3};

@@ -10,8 +10,8 @@ use std::path::Path;
 use super::text;
 use super::toml_format::check_format;
 use super::toml_text::{KeyLines, TomlText};
-use crate::cut::{Cut, Design, FAMILIES};
 use brillianteer_base::{Fault, FileError};
+use brillianteer_cut::{Cut, Design, FAMILIES};
 use family_form::FamilyForm;
 use form::DesignForm;
 

@@ -5,10 +5,10 @@
 //! written and read again has the same numbers.
 
 use super::design_file::ImportedDesign;
-use crate::cut::{
+use brillianteer_base::Fault;
+use brillianteer_cut::{
     Cut, DEFAULT_DIAMETER_MM, Design, FinishNote, Indexed, MaterialRef, Tier, Tiers, is_printable,
 };
-use brillianteer_base::Fault;
 use glam::DVec3;
 use std::f64::consts::TAU;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! Writes cutters' sheets as SVG, PDF and PNG.
 
 use super::{DrawingError, Failure, WriteError, in_tiers, pdf, rasterize, write as write_whole, write_png};
-use crate::cut::{Cut, TierZone, Tiers};
 use crate::picture::{CuttingSheet, PaperSize, sheet_pages};
 use crate::scene::{Specimen, Stone};
+use brillianteer_cut::{Cut, TierZone, Tiers};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 

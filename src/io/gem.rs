@@ -6,8 +6,8 @@
 use super::cutters::{self, Gear, TierPiece, WarningList};
 use super::design_file::ImportedDesign;
 use super::text::check_size;
-use crate::cut::{MAX_PLANES, Tiers};
 use brillianteer_base::Fault;
+use brillianteer_cut::{MAX_PLANES, Tiers};
 use brillianteer_math::Plane;
 use cursor::Cursor;
 use glam::DVec3;

@@ -1,8 +1,8 @@
 //! The options by which a mesh is read, since its file states neither which way its table faces, nor whether its
 //! triangles stand for flat facets, nor which of several solids is meant, nor, in most formats, how long its unit is.
 
-use crate::cut::Size;
-use crate::cut::from_mesh::{Evening, Up};
+use brillianteer_cut::Size;
+use brillianteer_cut::from_mesh::{Evening, Up};
 use serde::{Deserialize, Serialize};
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;

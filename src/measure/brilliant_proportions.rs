@@ -1,8 +1,8 @@
 //! The proportions of a round brilliant, measured on the stone, whether it is a design, a cutter's file or a scan.
 
 use super::facet_deviations::{FacetClasses, LeaningFacet, NotEightfold, OCTANTS, facet_deviations};
-use crate::cut::{BrilliantProportions, Outline};
 use crate::scene::Stone;
+use brillianteer_cut::{BrilliantProportions, Outline};
 use brillianteer_math::Facet;
 use std::f64::consts::FRAC_PI_8;
 
@@ -69,7 +69,7 @@ impl FacetsOnStone<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
+    use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use brillianteer_math::Plane;
     use glam::DVec2;
 

@@ -10,9 +10,9 @@ use super::interval::Interval;
 use super::light_measures::MeasureSettings;
 use super::pattern_settings::{PatternSettings, SHAPE_IS_SEEN};
 use super::virtual_facets::VirtualFacets;
-use crate::cut::FacetZones;
 use crate::trace::beam::{Beam, Beams};
 use brillianteer_base::{Stopped, Watch, go_on};
+use brillianteer_cut::FacetZones;
 use brillianteer_math::Polytope;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! Spread: the size of a stone as seen from above, for its weight.
 
-use crate::cut::round_diameter;
+use brillianteer_cut::round_diameter;
 use brillianteer_math::{Calipers, Polytope, hull};
 use glam::DVec3;
 use serde::Serialize;
@@ -67,8 +67,8 @@ fn seen_from_above(stone: &Polytope) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
     use crate::scene::Stone;
+    use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
     use brillianteer_math::Plane;
 
     const BRILLIANT: RoundBrilliant = RoundBrilliant {

@@ -3,8 +3,8 @@
 //! The classes are found from the geometry alone, so that a scan without names is measured like a design. The definitions are in
 //! docs/optics.md, "Facet deviations".
 
-use crate::cut::{FacetZones, TierZone};
 use crate::scene::Stone;
+use brillianteer_cut::{FacetZones, TierZone};
 use brillianteer_math::{Facet, Plane, span};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -289,7 +289,7 @@ pub(super) fn median(mut values: Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::TOLKOWSKY;
+    use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::random_bits::{GAMMA, mixed, unit};
 
     fn changed(name: &str, slope_deg: f64, azimuth_deg: f64, turn_deg: f64) -> Vec<ClassDeviations> {

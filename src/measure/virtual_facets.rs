@@ -134,10 +134,10 @@ fn images(polytope: &Polytope, view: &Basis, copy: &DMat2) -> Vec<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::TOLKOWSKY;
     use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace};
     use brillianteer_base::unwatched;
+    use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::Plane;
 
     fn stone() -> Polytope {

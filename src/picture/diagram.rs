@@ -12,8 +12,8 @@ pub use marks::DrawnMarks;
 pub use style::DiagramStyle;
 
 use super::drawing::{Align, DrawnAspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
-use crate::cut::tier_stem;
 use crate::scene::Stone;
+use brillianteer_cut::tier_stem;
 use brillianteer_math::{Basis, Facet, grouped};
 use glam::DVec2;
 use std::borrow::Cow;
@@ -281,7 +281,7 @@ impl View {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+    use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
     use brillianteer_math::Plane;
     use glam::DVec3;
     use resvg::usvg::roxmltree;

@@ -8,8 +8,8 @@ pub(crate) mod brilliant;
 pub(crate) use super::drawing::{degrees, percent};
 
 use super::drawing::{Align, DIMENSION, DrawnAspect, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
-use crate::cut::{FacetZones, Outline, RoundBrilliant, TierZone};
 use crate::scene::Stone;
+use brillianteer_cut::{FacetZones, Outline, RoundBrilliant, TierZone};
 use brillianteer_math::{Basis, Calipers, hull, span};
 use glam::{DVec2, DVec3};
 use svg::Document;
@@ -395,7 +395,7 @@ mod tests {
 
     #[test]
     fn a_brilliant_of_planes_is_seen_along_its_axes() {
-        let given = crate::cut::TOLKOWSKY;
+        let given = brillianteer_cut::TOLKOWSKY;
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
         assert_eq!(across_the_width(&stone).right, DVec3::X);
         let (found, derived) = (measured(&stone), given.derived().unwrap());
@@ -403,7 +403,7 @@ mod tests {
         assert!((total - derived.total_depth).abs() < 1e-9);
         // The parts of the height are those of `info`, which leave out the tips of the girdle.
         let names: Vec<String> = stone.names().to_vec();
-        let report = crate::cut::ProportionReport::of(&stone.polytope, &names);
+        let report = brillianteer_cut::ProportionReport::of(&stone.polytope, &names);
         let parts = [found.crown, found.girdle, found.pavilion].map(|span| span.unwrap().percent);
         let expected = [report.crown_height, report.girdle_thickness, report.pavilion_depth];
         assert!(

@@ -5,13 +5,13 @@ use super::check::{LATTICES, OutOfRange, demand, demand_count, demand_error, pos
 use super::job::{FiguresProduct, Job, Product, Quality};
 use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
-use crate::cut::Design;
 use crate::measure::{Bounds, Measured};
 use crate::scene::{
     ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,
     Viewpoint,
 };
 use brillianteer_base::unwatched;
+use brillianteer_cut::Design;
 use brillianteer_optics::{DispersionError, INDICES, INDICES_IN_WORDS, line};
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! The keys of the numbers that a sweep, a gradient or a search varies.
 
-use crate::cut::ScaledSide;
+use brillianteer_cut::ScaledSide;
 use std::fmt;
 
 /// The number or name that varies along an axis of a sweep.
@@ -14,7 +14,7 @@ pub enum SweepKey {
     /// follows from a meet cannot be set so.
     Distance(String),
     /// The height of a side above or below the girdle, percent of its height in the design, 10 to 1000: all its tiers
-    /// move together, so that every meet stays ([`scaled`](crate::cut::scaled)). It is set before angles and
+    /// move together, so that every meet stays ([`scaled`](brillianteer_cut::scaled)). It is set before angles and
     /// distances of tiers.
     Scale(ScaledSide),
     /// The refractive index, of [`INDICES`](brillianteer_optics::INDICES), the same at all wavelengths.

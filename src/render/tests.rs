@@ -3,7 +3,6 @@ mod frosted;
 mod metal;
 
 use super::*;
-use crate::cut::{Design, Family, MaterialRef};
 use crate::measure::Bounds;
 use crate::picture::Linear;
 use crate::picture::{Backdrop, liquid_glass::GlassPane};
@@ -13,6 +12,7 @@ use crate::scene::{
 };
 use crate::trace::environment::{EnvironmentMap, Lighting};
 use brillianteer_base::unwatched;
+use brillianteer_cut::{Design, Family, MaterialRef};
 use brillianteer_math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! A body as plain data: planes, triangles, or the dimensions of a glass shape. The body is built again from them.
 
 use super::{Body, Stone};
-use crate::cut::FROSTINGS;
+use brillianteer_cut::FROSTINGS;
 use brillianteer_math::{
     ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Plane, Polytope, PolytopeError, Surface,
     TriangleMesh, TriangleMeshError,

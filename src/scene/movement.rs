@@ -1,6 +1,6 @@
 //! How bodies move in time: copies tumble, and plates wave.
 
-use crate::cut::{Cut, Glass};
+use brillianteer_cut::{Cut, Glass};
 use serde::{Deserialize, Serialize};
 
 /// How fast a wave runs, radians a second.
@@ -87,7 +87,7 @@ pub fn has_wave(cut: &Cut) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::Family;
+    use brillianteer_cut::Family;
 
     #[test]
     fn each_movement_has_one_name_in_files() {

@@ -1,7 +1,7 @@
 //! A specimen: a stone made from a design, with its solid, its material, and warnings about anything unusual.
 
 use super::{Body, Medium, Stone};
-use crate::cut::{Audit, AuditSubject, Cut, Design, DesignError, FamilySolid, Tiers, Warning};
+use brillianteer_cut::{Audit, AuditSubject, Cut, Design, DesignError, FamilySolid, Tiers, Warning};
 use brillianteer_math::{NotConvex, Plane, Polytope, PolytopeError, Pose, SmoothSolid, SolidRef};
 use brillianteer_optics::{Material, critical_angle, line};
 use glam::DVec3;

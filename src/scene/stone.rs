@@ -1,6 +1,6 @@
 //! A stone: a polytope whose facets have names.
 
-use crate::cut::Outline;
+use brillianteer_cut::Outline;
 use brillianteer_math::{Plane, Polytope, PolytopeError, Pose};
 use glam::DVec2;
 use std::borrow::Cow;

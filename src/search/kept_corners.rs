@@ -112,7 +112,7 @@ fn miss(facets: &[String], planes: &HashMap<String, (DVec3, f64)>) -> Option<f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::TOLKOWSKY;
+    use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::Plane;
 
     fn stone(change: impl Fn(&str, &mut Plane)) -> Stone {

@@ -2,8 +2,8 @@
 
 use super::appraisal::SearchError;
 use super::goal::Goal;
-use crate::cut::{Cut, Design, MachineSetting, ScaledSide, Unit};
 use crate::render::{SweepKey, with_numbers};
+use brillianteer_cut::{Cut, Design, MachineSetting, ScaledSide, Unit};
 use brillianteer_math::Plane;
 
 /// The default range of a tier's angle to either side, degrees.

@@ -6,11 +6,11 @@ use super::kept_corners::KeptCorners;
 use super::limits::GeometryLimit;
 use super::numbers::{AS_IT_IS, VariedNumber};
 use super::terms::{GoalView, Term, views_and_terms};
-use crate::cut::{Cut, Design, TierOutcome, Tiers};
 use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
 use crate::scene::{Specimen, Stone};
 use brillianteer_base::{Watch, at_once};
+use brillianteer_cut::{Cut, Design, TierOutcome, Tiers};
 use brillianteer_optics::line;
 
 /// The part of a number's range by which it is changed for the derivatives of the geometry.

@@ -6,11 +6,11 @@ use super::kept_shape::estimated_class;
 use super::objective::PARTS;
 use super::outcome::SearchOutcome;
 use super::run::DesignSearch;
-use crate::cut::{CutClass, Design};
 use crate::measure::{Interval, MeasureName, MeasureSettings};
 use crate::render::Sweep;
 use crate::scene::{Specimen, Viewpoint};
 use brillianteer_base::Watch;
+use brillianteer_cut::{CutClass, Design};
 use brillianteer_optics::line;
 use std::cmp::Ordering;
 

@@ -1,7 +1,7 @@
 //! The outcome of a search, and its progress.
 
 use super::appraisal::Appraisal;
-use crate::cut::{Audit, Design, FindingKind};
+use brillianteer_cut::{Audit, Design, FindingKind};
 
 /// The progress of a search, reported for each appraised design. Threads report in any order, so a report with a
 /// smaller number may follow.

@@ -4,13 +4,13 @@ use super::{
     AtLeastAtMost, DesignSearch, Goal, GoalMaterial, Objective, OneOrMore, SearchError, SearchOptions,
     SearchProgress, VariedNumber, estimated_classes,
 };
-use crate::cut::{
-    Crown, Cut, CutClass, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
-};
 use crate::measure::MeasureSettings;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
 use crate::scene::{DomeLight, Viewpoint};
 use brillianteer_base::{Stopped, unwatched};
+use brillianteer_cut::{
+    Crown, Cut, CutClass, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
+};
 use brillianteer_optics::line;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -237,7 +237,7 @@ fn angles_end_on_the_scale_of_a_machine_and_lose_little() {
 #[test]
 fn a_search_that_names_no_number_leaves_outline_and_girdle_as_they_are() {
     let usual = |name: &str| {
-        let cut = &crate::cut::FAMILIES.iter().find(|family| family.key == name).unwrap().first;
+        let cut = &brillianteer_cut::FAMILIES.iter().find(|family| family.key == name).unwrap().first;
         let keys =
             |all: Vec<VariedNumber>| -> Vec<String> { all.iter().map(|n| n.key.to_string()).collect() };
         (keys(VariedNumber::usual(cut)), keys(VariedNumber::given_by(cut)))

@@ -182,10 +182,10 @@ impl<'a> Tail<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::TOLKOWSKY;
     use crate::scene::{ASET_CONE, Backing, Medium, View};
     use crate::trace::beam::{BeamOptions, SumOptions, sum_up, trace};
     use brillianteer_base::unwatched;
+    use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::{Plane, contains};
 
     fn brilliant() -> Polytope {

@@ -5,7 +5,7 @@ use crate::app::library_cuts::{LibraryCut, library_cuts};
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::dialog::Then;
 use crate::app::theme;
-use crate::cut::GROUPS;
+use brillianteer_cut::GROUPS;
 use egui::{Align2, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
 /// The side of a drawing, points.

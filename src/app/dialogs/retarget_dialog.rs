@@ -6,7 +6,7 @@ use crate::app::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
 use crate::app::panels::rows::{ChoiceRow, NUMBER, Number, explain, named_with_reset, skip_control};
 use crate::app::panels::stone_rows::material_choice;
 use crate::app::theme;
-use crate::cut::Retargeted;
+use brillianteer_cut::Retargeted;
 use brillianteer_math::signed;
 use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 

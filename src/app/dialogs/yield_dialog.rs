@@ -6,7 +6,7 @@ use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{SizeBy, YieldForm, YieldOptions};
 use crate::app::panels::rows::{ChoiceRow, Number, number_row};
 use crate::app::theme;
-use crate::cut::{Finished, FitLimit, Rough};
+use brillianteer_cut::{Finished, FitLimit, Rough};
 use egui::{Grid, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 

@@ -1,8 +1,8 @@
 //! The audit of the stone in sight: its findings, and the selected one.
 
-use crate::cut::{Audit, Finding};
 use crate::picture::DrawnMarks;
 use crate::scene::{Specimen, Stone};
+use brillianteer_cut::{Audit, Finding};
 use std::sync::Arc;
 
 /// The audit of the present stone. It is made in the background, once for each stone.
@@ -55,7 +55,7 @@ pub fn finding_facets(stone: &Stone, finding: &Finding) -> Vec<usize> {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
-    use crate::cut::{FindingKind, FindingUnit};
+    use brillianteer_cut::{FindingKind, FindingUnit};
 
     fn finding(facet: &str) -> Finding {
         Finding {

@@ -4,11 +4,11 @@
 //! the search ends, so the whole search is one step of undo.
 
 use super::goal_form::{GoalForm, GoalFormFault};
-use crate::cut::{Cut, CutClass, Design};
 use crate::io::Failure;
 use crate::search::{
     Appraisal, Goal, OtherMeasure, ProgressPoint, SearchOptions, SearchOutcome, SearchProgress, VariedNumber,
 };
+use brillianteer_cut::{Cut, CutClass, Design};
 
 /// Numbers that differ by less than this are equal: the search rounds its values.
 const SAME: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! Progress at the faceting machine: the step in sight, and which of its indices have been cut.
 
-use crate::cut::{TierZone, Tiers};
+use brillianteer_cut::{TierZone, Tiers};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -103,7 +103,7 @@ fn mark(design: &str, step: &CuttingStep, index: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Indexed, Tier};
+    use brillianteer_cut::{Indexed, Tier};
 
     fn step(angle: f64) -> CuttingStep {
         let facets = [0.0, 24.0].map(|index| Indexed { index, name: String::new() }).to_vec();

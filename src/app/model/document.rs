@@ -9,12 +9,12 @@ use super::render_settings::RenderSettings;
 use super::saving::{SaveRequest, SavedDesign, Stamp};
 use super::view_history::ViewState;
 use super::work::{ReadMesh, Work};
-use crate::cut::{Cut, Design, Tiers};
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, cut_file, library};
 use crate::scene::{Companions, Copies, RingPlan, Specimen, SpecimenError};
 use brillianteer_base::FileError;
+use brillianteer_cut::{Cut, Design, Tiers};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -462,7 +462,7 @@ impl Document {
 mod tests {
     use super::*;
     use crate::app::tasks::open::save;
-    use crate::cut::Crown;
+    use brillianteer_cut::Crown;
 
     fn crown(document: &mut Document, degrees: f64) {
         let Cut::RoundBrilliant(brilliant) = &mut document.work.design.cut else { panic!() };

@@ -1,7 +1,7 @@
 //! The extent of a stone seen from above, by which its size is stated.
 
-use crate::cut::{Cut, Design, Outline, Tiers, round_diameter};
 use crate::scene::{Body, Specimen, Stone};
+use brillianteer_cut::{Cut, Design, Outline, Tiers, round_diameter};
 use brillianteer_math::{Calipers, hull};
 use glam::DVec3;
 
@@ -54,7 +54,7 @@ impl Extent {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
-    use crate::cut::RoundBrilliant;
+    use brillianteer_cut::RoundBrilliant;
     use brillianteer_math::Plane;
     use std::f64::consts::FRAC_PI_2;
 

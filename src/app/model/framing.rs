@@ -130,9 +130,9 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
     use crate::app::model::framing_fit::bounds;
-    use crate::cut::{Cut, Design};
     use crate::scene::{Film, Projection};
     use crate::trace::ray::Camera;
+    use brillianteer_cut::{Cut, Design};
     use brillianteer_math::Plane;
 
     /// Returns a stone of planes: half a prism, which lies beside the origin.

@@ -2,10 +2,10 @@
 //! change.
 
 use super::measure_map::MapAxis;
-use crate::cut::{Cut, Proportion};
 use crate::measure::measure_words;
 use crate::render::SweepKey;
 use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
+use brillianteer_cut::{Cut, Proportion};
 use std::collections::BTreeMap;
 
 /// The proportions that may change at first, where a cut has them.
@@ -325,7 +325,7 @@ mod tests {
 
     #[test]
     fn numbers_that_are_not_listed_stay_in_the_goal_of_a_file_while_the_cut_has_them() {
-        let planes = Cut::Planes(crate::cut::TOLKOWSKY.facets().unwrap());
+        let planes = Cut::Planes(brillianteer_cut::TOLKOWSKY.facets().unwrap());
         let mut form = GoalForm::default();
         form.follow(&planes);
         let mut goal = Goal::of([(MeasureName::Fire, 1.0)]);

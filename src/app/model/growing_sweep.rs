@@ -1,10 +1,10 @@
 //! A sweep that grows: its order, and the points that have been answered.
 
 use crate::app::studio::{SweepOrder, SweptPoint};
-use crate::cut::Design;
 use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::render::{Sweep, SweepAxis, SweepError, SweptStone};
 use crate::scene::Viewpoint;
+use brillianteer_cut::Design;
 use brillianteer_optics::line;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! Explains proportions that no stone can have: at the row that was edited, in that row's terms and by the panel's names.
 
 use crate::app::value_grid::ValueGrid;
-use crate::cut::{Cut, DesignError, Limit, Proportion, ProportionError, Unit};
 use crate::scene::SpecimenError;
+use brillianteer_cut::{Cut, DesignError, Limit, Proportion, ProportionError, Unit};
 
 /// A message about a fault, and the row that shows it.
 pub struct RowMessage {
@@ -83,7 +83,7 @@ fn message(fault: &ProportionError) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{FAMILIES, Family};
+    use brillianteer_cut::{FAMILIES, Family};
 
     fn brilliant() -> &'static Family {
         Family::of_key("round_brilliant").unwrap()

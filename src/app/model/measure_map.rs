@@ -6,9 +6,9 @@
 use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use super::impossible::by_name;
 use crate::app::studio::SweepOrder;
-use crate::cut::{Cut, Design, MaterialRef, Proportion, ScaledSide, Unit};
 use crate::measure::{MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue};
+use brillianteer_cut::{Cut, Design, MaterialRef, Proportion, ScaledSide, Unit};
 use brillianteer_math::Plane;
 use std::sync::Arc;
 
@@ -67,7 +67,7 @@ impl MapAxis {
         let settings = cut.settings();
         let is_slanted = |angle: f64| (least..=most).contains(&angle.abs());
         let tiers = settings.iter().filter(|tier| is_slanted(tier.angle));
-        let tier = |tier: &crate::cut::MachineSetting| Self {
+        let tier = |tier: &brillianteer_cut::MachineSetting| Self {
             key: SweepKey::Tier(tier.name.clone()),
             name: format!("Angle of {}", tier.name),
             unit: "°",

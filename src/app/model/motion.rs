@@ -80,7 +80,7 @@ impl WaveCache {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
-    use crate::cut::{Cut, Glass};
+    use brillianteer_cut::{Cut, Glass};
 
     #[test]
     fn a_plate_waves_and_tumbles_as_its_copies_say_and_anything_else_tumbles() {

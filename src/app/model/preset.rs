@@ -1,12 +1,12 @@
 //! Scenes that the editor can work on: copies of one design with their companions, light and backplate.
 
 use super::render_settings::RenderSettings;
-use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::assembly::{Assembly, StonePlace};
 use crate::io::scene_file::{self, RingEntry, SceneFile};
 use crate::io::{Failure, library};
 use crate::scene::{Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen};
 use brillianteer_base::FileError;
+use brillianteer_cut::{Cut, Design, MaterialRef};
 use std::path::Path;
 use std::sync::Arc;
 

@@ -3,9 +3,9 @@
 use super::render_settings::RenderSettings;
 use super::view_history::ViewState;
 use super::work::{ReadMesh, Work};
-use crate::cut::Design;
 use crate::io::{Failure, cut_file};
 use crate::scene::{Companion, Companions, Copies, MetalInstance, Pose, SceneRing, Specimen};
+use brillianteer_cut::Design;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! The user's work: everything that undo restores.
 
 use super::render_settings::RenderSettings;
-use crate::cut::Design;
 use crate::io::mesh_options::MeshOptions;
 use crate::scene::{Companions, Copies};
+use brillianteer_cut::Design;
 use std::path::PathBuf;
 use std::sync::Arc;
 

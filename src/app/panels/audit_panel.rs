@@ -5,7 +5,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::panels::rows::explain;
-use crate::cut::{Audit, Finding, FindingKind};
+use brillianteer_cut::{Audit, Finding, FindingKind};
 use brillianteer_math::fixed;
 use egui::{Button, Panel, RichText, ScrollArea, Ui};
 use glam::DVec3;
@@ -145,7 +145,7 @@ fn place(at: DVec3) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::FindingUnit;
+    use brillianteer_cut::FindingUnit;
 
     #[test]
     fn a_finding_is_a_sentence_with_its_facets_its_size_and_its_place() {

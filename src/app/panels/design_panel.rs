@@ -10,8 +10,8 @@ use crate::app::panels::row_focus;
 use crate::app::panels::rows::{ANY, FilledRow, Row, explain, field_width, named, wrong};
 use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
-use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use crate::scene::{Copies, SpecimenError};
+use brillianteer_cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use brillianteer_math::fixed;
 use egui::{
     Button, Panel, Rect, RichText, Role, ScrollArea, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,

@@ -2,7 +2,7 @@
 
 use crate::app::model::action::{Actions, Edit};
 use crate::app::panels::rows::explain;
-use crate::cut::{TierChange, Tiers};
+use brillianteer_cut::{TierChange, Tiers};
 use egui::{Align, DragValue, Layout, Ui, vec2};
 use std::ops::RangeInclusive;
 

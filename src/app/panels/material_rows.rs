@@ -1,7 +1,7 @@
 //! Rows for the optical properties of a material of one's own: index, dispersion and colour.
 
 use crate::app::panels::rows::{Number, Row, colour_row, number_row};
-use crate::cut::{Cut, Design, MaterialRef};
+use brillianteer_cut::{Cut, Design, MaterialRef};
 use brillianteer_optics::{Absorption, Dispersion, Material, line};
 use egui::{CollapsingHeader, Id, Ui, UiBuilder};
 use std::ops::RangeInclusive;

@@ -4,7 +4,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::panels::rows::{Number, explain, spoken};
-use crate::cut::{Cut, ScaledSide, Tiers};
+use brillianteer_cut::{Cut, ScaledSide, Tiers};
 use egui::{Align, Layout, Ui, vec2};
 use std::ops::RangeInclusive;
 

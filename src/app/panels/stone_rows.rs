@@ -7,7 +7,7 @@ use crate::app::panels::material_rows;
 use crate::app::panels::rows::{
     ChoiceRow, NOT_KNOWN, NUMBER, Number, UNKNOWN, named, number_row, skip_control,
 };
-use crate::cut::{Cut, Design, MaterialRef, Size};
+use brillianteer_cut::{Cut, Design, MaterialRef, Size};
 use brillianteer_math::rounded;
 use brillianteer_optics::{Material, line, materials};
 use egui::{RichText, Ui};

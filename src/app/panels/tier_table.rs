@@ -8,7 +8,7 @@ use crate::app::model::action::{Actions, Edit, ViewAction};
 use crate::app::model::meet_pick::MeetPick;
 use crate::app::panels::rows::{ANY, Number, explain, spoken};
 use crate::app::panels::{gear_fields, scale_fields};
-use crate::cut::{Cut, FROSTINGS, Tier, TierChange, TierZone, Tiers, read_indices};
+use brillianteer_cut::{Cut, FROSTINGS, Tier, TierChange, TierZone, Tiers, read_indices};
 use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
 /// The least, the first and the greatest height of the table, points.

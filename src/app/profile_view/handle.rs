@@ -3,11 +3,11 @@
 //! Places are in girdle radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
 use crate::app::value_grid::ValueGrid;
-use crate::cut::ProfileHandle::{
+use crate::picture::profile::{Dimensions, Span};
+use brillianteer_cut::ProfileHandle::{
     self, CrownSlope, CuletEdge, GirdleLower, GirdleUpper, PavilionSlope, PavilionTip, TableEdge, TableLine,
 };
-use crate::cut::{Cut, Proportion};
-use crate::picture::profile::{Dimensions, Span};
+use brillianteer_cut::{Cut, Proportion};
 use egui::CursorIcon;
 use glam::DVec2;
 
@@ -121,7 +121,8 @@ pub fn percent_of_radius(dimensions: &Dimensions) -> f64 {
 mod tests {
     use super::super::sight::{ProfileBox, ProfileProjection};
     use super::*;
-    use crate::cut::{Crown, Pavilion, RoundBrilliant, TOLKOWSKY, strategy};
+    use crate::random;
+    use brillianteer_cut::{Crown, Pavilion, RoundBrilliant, TOLKOWSKY};
     use egui::{Pos2, Rect, Vec2, vec2};
     use proptest::prelude::*;
 
@@ -203,7 +204,7 @@ mod tests {
     proptest! {
         #[test]
         fn however_it_is_pulled_a_stone_stays_possible_and_what_is_held_stays_held(
-            given in strategy::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
+            given in random::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
         ) {
             let handle = handle(ProfileHandle::ALL[k]);
             let new = dragged(handle, &given, travel);
@@ -218,7 +219,7 @@ mod tests {
 
         #[test]
         fn a_handle_stays_under_the_hand_or_at_its_limit(
-            given in strategy::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
+            given in random::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
         ) {
             let handle = handle(ProfileHandle::ALL[k]);
             let new = dragged(handle, &given, travel);
@@ -231,7 +232,7 @@ mod tests {
 
         #[test]
         fn pulled_there_and_back_a_stone_is_what_it_was(
-            given in strategy::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
+            given in random::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
         ) {
             let handle = handle(ProfileHandle::ALL[k]);
             let there = dragged(handle, &given, travel);

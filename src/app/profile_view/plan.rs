@@ -2,9 +2,9 @@
 
 use super::sheet::{About, BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::ProfileProjection;
-use crate::cut::{Cut, ProfileHandle};
 use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
 use crate::picture::profile::{Dimensions, Span, percent, spread};
+use brillianteer_cut::{Cut, ProfileHandle};
 use egui::epaint::MarginF32;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
@@ -254,9 +254,10 @@ mod tests {
     use super::super::body::ProfileBody;
     use super::super::sight::{ProfileBox, room};
     use super::*;
-    use crate::cut::{Crown, RoundBrilliant, TOLKOWSKY, strategy};
     use crate::picture::profile::brilliant::BRILLIANT_BASIS;
+    use crate::random;
     use crate::scene::Stone;
+    use brillianteer_cut::{Crown, RoundBrilliant, TOLKOWSKY};
     use proptest::prelude::*;
 
     fn measure(text: &str) -> Vec2 {
@@ -323,7 +324,7 @@ mod tests {
 
         #[test]
         fn no_number_overlaps_another_or_is_cut_off(
-            given in strategy::proportions(), width in 100.0_f32..1000.0, height in 80.0_f32..800.0,
+            given in random::proportions(), width in 100.0_f32..1000.0, height in 80.0_f32..800.0,
         ) {
             let labels = labels(&given, vec2(width, height));
             let rect = Rect::from_min_size(Pos2::ZERO, vec2(width, height));

@@ -1,7 +1,7 @@
 //! A sheet on which dimensions are laid out. A number stands where it fits without an overlap; where there is no such
 //! place, the number and its lines are left out.
 
-use crate::cut::Proportion;
+use brillianteer_cut::Proportion;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 
 /// The proportion that a line or number belongs to, if it belongs to one.

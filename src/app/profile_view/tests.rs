@@ -1,9 +1,9 @@
 //! Tests the drawing in a window, by pointer, by keyboard and by accessible names.
 
 use super::ProfileView;
-use crate::cut::{Cut, Pavilion, ProfileHandle, RoundBrilliant, TOLKOWSKY};
 use crate::picture::DrawnMarks;
 use crate::scene::Stone;
+use brillianteer_cut::{Cut, Pavilion, ProfileHandle, RoundBrilliant, TOLKOWSKY};
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -1,12 +1,12 @@
 //! Finds how the points of a view have moved between two renders, for temporal antialiasing.
 
 use super::order::{Shot, Slot};
-use crate::cut::{Cut, Glass};
 use crate::io::background::BackgroundRef;
 use crate::picture::{Linear, MotionVector, TemporalHistory};
 use crate::scene::{Body, Companions, Film, Pose, Specimen, View};
 use crate::trace::ray;
 use crate::trace::sampling::LitScene;
+use brillianteer_cut::{Cut, Glass};
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::HashMap;

@@ -2,11 +2,11 @@
 
 use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
 use crate::app::model::work::ReadMesh;
-use crate::cut::from_mesh::{Evening, Up};
-use crate::cut::{Cut, Design};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::io::{WriteError, cut_file, design_file, write};
 use crate::scene::{Copies, MOST_STONES};
+use brillianteer_cut::from_mesh::{Evening, Up};
+use brillianteer_cut::{Cut, Design};
 use brillianteer_math::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -283,7 +283,7 @@ mod tests {
             brillianteer_math::TriangleMesh::new(brillianteer_math::Surface::new(vertices, triangles))
                 .unwrap();
         let first = Document::first().unwrap().work.design;
-        let cut = Cut::Mesh(crate::cut::MeshShape(Arc::new(solid)));
+        let cut = Cut::Mesh(brillianteer_cut::MeshShape(Arc::new(solid)));
         std::fs::write(&path, cut_file::write(&Design { cut, ..first })).unwrap();
         let mesh = design_file::read(&path).unwrap().design;
         let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
@@ -306,7 +306,7 @@ mod tests {
             brillianteer_math::TriangleMesh::new(brillianteer_math::Surface::new(vertices, triangles))
                 .unwrap();
         let first = Document::first().unwrap().work.design;
-        let heart = Design { cut: Cut::Mesh(crate::cut::MeshShape(Arc::new(solid))), ..first };
+        let heart = Design { cut: Cut::Mesh(brillianteer_cut::MeshShape(Arc::new(solid))), ..first };
         let specimen = crate::scene::Specimen::new(heart).unwrap();
         design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::app::model::audit::finding_facets;
-use crate::cut::FindingKind;
+use brillianteer_cut::FindingKind;
 use egui_kittest::kittest::NodeT;
 
 /// A design whose mains and breaks meet in points. Its table lies half a percent of the width deeper than the points

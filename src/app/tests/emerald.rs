@@ -2,9 +2,9 @@
 
 use super::tiers::{reach, tiers, type_text};
 use super::*;
-use crate::cut::{FindingKind, Outline};
 use crate::io::design_file;
 use crate::scene::Specimen;
+use brillianteer_cut::{FindingKind, Outline};
 use brillianteer_math::Plane;
 use egui::Role;
 
@@ -103,7 +103,7 @@ fn outline(specimen: &Specimen) -> Outline {
 }
 
 /// Returns the names of the tiers whose distances differ.
-fn moved(before: &crate::cut::Tiers, now: &crate::cut::Tiers) -> Vec<String> {
+fn moved(before: &brillianteer_cut::Tiers, now: &brillianteer_cut::Tiers) -> Vec<String> {
     let pairs = before.tiers.iter().zip(&now.tiers).filter(|(a, b)| (a.distance - b.distance).abs() > 1e-6);
     pairs.map(|(tier, _)| tier.name().to_owned()).collect()
 }

@@ -4,7 +4,7 @@ use super::row_defaults::double_click_name;
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::fitting::RetargetForm;
-use crate::cut::{Finished, MaterialRef, Rough};
+use brillianteer_cut::{Finished, MaterialRef, Rough};
 use egui::Role;
 
 /// Opens an editor in a window that is high enough for the dialogs.

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::app::model::dialog::Dialog;
-use crate::cut::Crown;
 use crate::io::cut_file;
 use crate::render::{MeasureOptions, measure};
+use brillianteer_cut::Crown;
 use egui_kittest::kittest::NodeT;
 
 #[test]

@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::app::model::document::Document;
-use crate::cut::from_mesh::Up;
-use crate::cut::{Design, Glass, MeshShape};
 use crate::io::design_file::{self, DesignFormat};
 use crate::scene::Specimen;
+use brillianteer_cut::from_mesh::Up;
+use brillianteer_cut::{Design, Glass, MeshShape};
 use brillianteer_math::{Surface, TriangleMesh};
 use std::sync::Arc;
 

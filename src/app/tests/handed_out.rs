@@ -4,10 +4,10 @@
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
-use crate::cut::Design;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_rgba_png};
 use crate::scene::Specimen;
+use brillianteer_cut::Design;
 use egui::OutputCommand;
 use egui_kittest::kittest::NodeT;
 use std::path::Path;

@@ -6,11 +6,11 @@ use crate::app::model::render_settings::RenderSettings;
 use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
 use crate::app::studio::{Shot, Smoothing};
-use crate::cut::MaterialRef;
 use crate::io::cut_file;
 use crate::picture::Bloom;
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::{Environment, EnvironmentMap};
+use brillianteer_cut::MaterialRef;
 use brillianteer_math::Basis;
 use brillianteer_optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use egui::{

@@ -5,10 +5,10 @@ use crate::app::model::action::FileAction;
 use crate::app::model::dialog::{Dialog, Then};
 use crate::app::model::document::Document;
 use crate::app::model::opening::{FileRequest, Opening, OpeningPurpose};
-use crate::cut::from_mesh::{Evening, Up};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::scene::Specimen;
+use brillianteer_cut::from_mesh::{Evening, Up};
 use glam::DVec3;
 use std::path::Path;
 

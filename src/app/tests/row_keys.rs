@@ -1,7 +1,7 @@
 //! Tests of the keyboard in rows: Tab goes from number to number, and keys of the view do not act while a row has the focus.
 
 use super::*;
-use crate::cut::Crown;
+use brillianteer_cut::Crown;
 use egui::{Event, Key, Modifiers, Role};
 
 /// Presses a key, and gives the window the frames in which the focus moves.

@@ -39,7 +39,7 @@ fn begun(scene: &str) -> Model {
 /// Returns a point of each stone, in mm, with the name and the material of its design, and each corner of metal.
 fn places(work: &Work, unit_mm: f64) -> Vec<(String, DVec3)> {
     let point = DVec3::new(0.4, -0.2, 0.1);
-    let of = |design: &crate::cut::Design| {
+    let of = |design: &brillianteer_cut::Design| {
         format!("{} {:?} {:.6}", design.name, design.material, design.diameter_mm)
     };
     let own = work.copies.poses.iter().map(|pose| (of(&work.design), pose.place(point) * unit_mm));

@@ -5,7 +5,7 @@ use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::cut_search::{EndedSearch, SearchEnd, SearchState};
 use crate::app::model::render_settings::SettingChange;
-use crate::cut::Design;
+use brillianteer_cut::Design;
 use egui::{Role, vec2};
 use egui_kittest::kittest::NodeT;
 use std::path::Path;

@@ -3,7 +3,7 @@
 use super::tiers::{reach, tiers, type_text};
 use super::*;
 use crate::app::model::meet_pick::MeetPick;
-use crate::cut::{CornerFault, Meet, Tier, TierChange, TierCorner, TierZone, Tiers};
+use brillianteer_cut::{CornerFault, Meet, Tier, TierChange, TierCorner, TierZone, Tiers};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use glam::{DMat2, DVec2};
 
@@ -251,7 +251,7 @@ fn two_corners_that_are_picked_become_one_meet_as_one_step() {
     let tier = &now.tiers[place];
     let Some(Meet::Points(points)) = &tier.meet else { panic!("{:?}", tier.meet) };
     assert_eq!(points.len(), 2);
-    let passes = |facet: &crate::cut::Indexed| {
+    let passes = |facet: &brillianteer_cut::Indexed| {
         let plane = now.plane(tier, facet.index);
         corners.iter().all(|corner| plane.distance(corner.at).abs() < THERE)
     };
@@ -320,7 +320,7 @@ fn three_corners_that_are_picked_set_angle_and_index_as_one_step_and_undo_takes_
     let now = tiers(&bench);
     let tier = &now.tiers[place];
     assert!(matches!(&tier.meet, Some(Meet::Points(points)) if points.len() == 3), "{:?}", tier.meet);
-    let passes = |facet: &crate::cut::Indexed| {
+    let passes = |facet: &brillianteer_cut::Indexed| {
         let plane = now.plane(tier, facet.index);
         corners.iter().all(|corner| plane.distance(corner.at).abs() < THERE)
     };

@@ -4,8 +4,8 @@ use super::row_defaults::double_click;
 use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::{Action, update};
-use crate::cut::{Tier, TierChange, TierZone, Tiers};
 use crate::io::design_file::{self, DesignFormat};
+use brillianteer_cut::{Tier, TierChange, TierZone, Tiers};
 use egui::Role;
 
 /// Returns the tiers of the open design.
@@ -195,7 +195,7 @@ fn a_scale_that_cannot_be_leaves_the_design_and_says_why() {
     steep.tiers[place].angle = -89.4;
     let of = Box::new(Cut::Tiers(steep));
     let before = tiers(&bench);
-    let edit = Edit::Scale { side: crate::cut::ScaledSide::Pavilion, percent: 200.0, of };
+    let edit = Edit::Scale { side: brillianteer_cut::ScaledSide::Pavilion, percent: 200.0, of };
     let model = &mut bench.harness.state_mut().model;
     update(model, Action::Edit(edit));
     bench.settle();

@@ -4,7 +4,7 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::cutting::{CuttingProgress, CuttingStep, steps};
 use crate::app::polygons;
-use crate::cut::{Cut, TierZone, Tiers};
+use brillianteer_cut::{Cut, TierZone, Tiers};
 use brillianteer_math::{Plane, Polytope};
 use egui::{
     Button, CentralPanel, Color32, DragValue, Key, Mesh, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,

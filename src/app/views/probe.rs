@@ -1,8 +1,8 @@
 //! Finds the facet under the pointer, and the direction that its light comes from.
 
-use crate::cut::tier_stem;
 use crate::scene::{Film, Pose, Scope, Specimen, View, elevation_deg};
 use crate::trace::ray::{Camera, Path, RayOptions, StoneTracer};
+use brillianteer_cut::tier_stem;
 use brillianteer_optics::line;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;

@@ -9,9 +9,9 @@ use crate::app::model::audit::finding_facets;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::app::theme::FOUND;
-use crate::cut::Cut;
 use crate::picture::Scoped;
 use crate::scene::Scope;
+use brillianteer_cut::Cut;
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
 };

@@ -1,7 +1,7 @@
 //! A drag of a facet of a tier: where the tier goes as the pointer moves, and the corners at which it stops.
 
 use super::known_corners::{CornersOfTier, KnownCorners};
-use crate::cut::{Tier, TierChange, TierCorner};
+use brillianteer_cut::{Tier, TierChange, TierCorner};
 use egui::{Pos2, Vec2};
 
 /// A tier stops at a corner where the pointer is this near to the place that cuts the facet there, points.

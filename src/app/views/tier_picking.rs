@@ -6,7 +6,7 @@ use super::pane_context::PaneContext;
 use super::pane_view::PaneView;
 use crate::app::model::action::{Edit, NoteAction, ViewAction};
 use crate::app::model::meet_pick::MeetPick;
-use crate::cut::{CornerFault, Meet, TierChange};
+use brillianteer_cut::{CornerFault, Meet, TierChange};
 use egui::{Align2, Color32, FontId, Pos2, Response, Stroke, Ui};
 use std::time::Duration;
 

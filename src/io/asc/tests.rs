@@ -1,8 +1,8 @@
 use super::*;
-use crate::cut::{Cut, MaterialRef};
 use crate::io::cut_file;
 use crate::io::design_file::EncodedDesign;
 use crate::scene::Specimen;
+use brillianteer_cut::{Cut, MaterialRef};
 use proptest::prelude::*;
 
 #[test]
@@ -78,7 +78,7 @@ fn a_stone_is_scaled_to_its_girdle_whatever_its_unit() {
         .replace(" 0.45 ", " 0.9 ");
     let [a, b] =
         [STONE, &double].map(|text| Specimen::new(read(text.as_bytes(), "x").unwrap().design).unwrap());
-    let outline = crate::cut::Outline::of(&a.stone().unwrap().polytope);
+    let outline = brillianteer_cut::Outline::of(&a.stone().unwrap().polytope);
     assert!((outline.width - 2.0).abs() < 1e-12 && outline.girdle_top.abs() < 1e-12, "{outline:?}");
     for (x, y) in a.stone().unwrap().polytope.vertices().iter().zip(b.stone().unwrap().polytope.vertices()) {
         assert!(x.distance(*y) < 1e-12);
@@ -350,7 +350,7 @@ fn a_stone_is_frosted_alike_in_every_format() {
     );
     let brought = read(said.as_bytes(), "x.asc").unwrap();
     assert_eq!(brought.warnings, Vec::<String>::new());
-    let frosting = |design: &crate::cut::Design| match &design.cut {
+    let frosting = |design: &brillianteer_cut::Design| match &design.cut {
         Cut::Tiers(tiers) => tiers.tiers.iter().map(|tier| tier.frosting).collect::<Vec<_>>(),
         _ => panic!("tiers are expected"),
     };

@@ -1,10 +1,10 @@
 //! Writes a design as a GemCad text file.
 
 use super::is_padding;
-use crate::cut::{Tier, Tiers, is_printable, with_finish};
 use crate::io::cutters;
 use crate::io::design_file::EncodedDesign;
 use crate::scene::Specimen;
+use brillianteer_cut::{Tier, Tiers, is_printable, with_finish};
 use encoding_rs::WINDOWS_1252;
 use std::fmt::Write;
 

@@ -1,9 +1,9 @@
 //! A scene some time after its bodies have begun to move.
 
 use super::Assembly;
-use crate::cut::Design;
 use crate::io::Failure;
 use crate::scene::{Copies, Instance, Movement, Pose};
+use brillianteer_cut::Design;
 use std::sync::Arc;
 
 impl Assembly {

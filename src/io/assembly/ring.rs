@@ -1,11 +1,11 @@
 //! The stones and the metal of a scene's ring.
 
 use super::{CutKey, Member, NamedMaterial, diameter_mm, named_material};
-use crate::cut::{MaterialRef, Size};
 use crate::io::Failure;
 use crate::io::mesh_options::MeshPart;
 use crate::io::scene_file::RingEntry;
 use crate::scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone, Specimen};
+use brillianteer_cut::{MaterialRef, Size};
 use brillianteer_math::{NotConvex, ShadedMesh};
 use std::collections::BTreeMap;
 use std::path::Path;

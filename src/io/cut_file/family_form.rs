@@ -1,9 +1,9 @@
 //! The tables of families of cuts, such as `[round_brilliant]`, read and written by the rows of each family.
 
 use super::values::TomlTable;
-use crate::cut::{Cut, FAMILIES, Family, Proportion, ProportionError, Unit};
 use crate::io::toml_text::meant;
 use brillianteer_base::Fault;
+use brillianteer_cut::{Cut, FAMILIES, Family, Proportion, ProportionError, Unit};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::values::{Numbers, OneOf, Pairs, TomlTable};
-use crate::cut::{MaterialError, MaterialRef};
 use brillianteer_base::Fault;
+use brillianteer_cut::{MaterialError, MaterialRef};
 use brillianteer_optics::{Absorption, AbsorptionError, Dispersion, Material};
 
 /// The wavelength, in nm, of the one sample of an absorption that is the same at every wavelength.

@@ -1,7 +1,7 @@
 //! The key `meet` of a tier: words, or lists of names.
 
-use crate::cut::{GivenSize, Meet, MeetPoint};
 use brillianteer_base::Fault;
+use brillianteer_cut::{GivenSize, Meet, MeetPoint};
 use serde::{Deserialize, Serialize};
 
 /// The words before the angle of the centre-point angle method.

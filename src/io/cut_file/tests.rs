@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::*;
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape};
+use brillianteer_cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape};
 use brillianteer_math::{Plane, Pose, Surface, TriangleMesh};
 
 mod materials;
@@ -48,7 +48,7 @@ fn tolkowskys_file_reads_as_written() {
         notes: None,
         material: MaterialRef::Name("diamond".to_owned()),
         diameter_mm: DEFAULT_DIAMETER_MM,
-        cut: Cut::RoundBrilliant(crate::cut::TOLKOWSKY),
+        cut: Cut::RoundBrilliant(brillianteer_cut::TOLKOWSKY),
     };
     assert_eq!(parse(TOLKOWSKY, "x.toml"), Ok(expected));
 }

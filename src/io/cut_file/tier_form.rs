@@ -1,8 +1,8 @@
 //! The keys of the tables `[[tier]]` of a cutter's design.
 
 use super::meet_form::MeetForm;
-use crate::cut::{Indexed, Tier};
 use brillianteer_base::Fault;
+use brillianteer_cut::{Indexed, Tier};
 use serde::{Deserialize, Serialize};
 
 /// A table `[[tier]]`.

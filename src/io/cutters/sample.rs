@@ -1,7 +1,7 @@
 //! A design that uses everything that both `.gem` and `.gcs` can hold, for their tests.
 
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers};
 use crate::scene::Specimen;
+use brillianteer_cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers};
 use brillianteer_math::Pose;
 use std::collections::BTreeMap;
 
@@ -63,7 +63,7 @@ pub(in super::super) fn tiers(design: &mut Design) -> &mut Tiers {
 
 /// Returns stones that are not cut by tiers: a brilliant, and planes that do not lie around the origin.
 pub(in super::super) fn others() -> [Specimen; 2] {
-    let brilliant = Design { cut: Cut::RoundBrilliant(crate::cut::TOLKOWSKY), ..design() };
+    let brilliant = Design { cut: Cut::RoundBrilliant(brillianteer_cut::TOLKOWSKY), ..design() };
     let solid = specimen(brilliant.clone())
         .stone()
         .unwrap()

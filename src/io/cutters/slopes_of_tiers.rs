@@ -1,12 +1,12 @@
 //! The exact slopes of measures by the angles and distances of cutters' tiers.
 
 use super::as_tiers;
-use crate::cut::{Cut, Design, ScaledSide};
 use crate::io::{cut_file, library};
 use crate::measure::{MeasureDerivatives, MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepKey, with_numbers};
 use crate::scene::{Medium, Specimen, Stone, View, Viewpoint};
 use crate::trace::beam::{BeamOptions, Beams, trace_bounces};
+use brillianteer_cut::{Cut, Design, ScaledSide};
 
 /// The number of reflections through which all stones of a comparison are followed, so that neighbours have the same
 /// beams.

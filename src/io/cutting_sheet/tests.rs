@@ -1,7 +1,7 @@
 use super::super::drawing_png::legible::{overlapping, texts};
 use super::super::drawing_png::parse;
 use super::*;
-use crate::cut::{Cut, Design, Indexed, MaterialRef, SheetFigures, TOLKOWSKY, Tier, Tiers};
+use brillianteer_cut::{Cut, Design, Indexed, MaterialRef, SheetFigures, TOLKOWSKY, Tier, Tiers};
 use proptest::prelude::*;
 use resvg::usvg::{Group, Node, Rect};
 

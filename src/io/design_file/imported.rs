@@ -1,8 +1,8 @@
 //! A design in the form that the readers of all formats return.
 
-use crate::cut::Design;
-use crate::cut::from_mesh::FacetError;
 use crate::io::mesh::MeshBody;
+use brillianteer_cut::Design;
+use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_math::Pose;
 
 /// A design that was read from a file, with notes and warnings.

@@ -1,10 +1,10 @@
 use super::*;
-use crate::cut::MaterialRef;
 use crate::io::{cut_file, library};
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Specimen, Viewpoint};
 use brillianteer_base::unwatched;
+use brillianteer_cut::MaterialRef;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;

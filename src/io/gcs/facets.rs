@@ -1,10 +1,10 @@
 //! Reads the tiers of a `.gcs` file and their facets.
 
 use super::read::Reader;
-use crate::cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
 use crate::io::cutters::{self, Gear, TierPiece};
 use crate::io::numbers::Token;
 use brillianteer_base::Fault;
+use brillianteer_cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
 use brillianteer_math::Plane;
 use glam::DVec3;
 use roxmltree::Node;

@@ -1,11 +1,11 @@
 //! Reads `.gcs` files.
 
 use super::{COLOUR, ROOT, VERSION, guard};
-use crate::cut::{MaterialRef, Tiers};
 use crate::io::cutters::{self, Gear, WarningList};
 use crate::io::design_file::ImportedDesign;
 use crate::io::numbers::NumberReader;
 use brillianteer_base::Fault;
+use brillianteer_cut::{MaterialRef, Tiers};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt::Display;
 

@@ -1,7 +1,7 @@
 use super::*;
-use crate::cut::{Cut, Design, MaterialRef, Tier, TierZone};
 use crate::io::cutters::sample::{design, others, specimen, tiers};
 use crate::io::design_file::{EncodedDesign, ImportedDesign};
+use brillianteer_cut::{Cut, Design, MaterialRef, Tier, TierZone};
 use brillianteer_math::{Plane, Polytope};
 use proptest::prelude::*;
 
@@ -291,7 +291,7 @@ fn no_build_of_xml_takes_long() {
     }
     assert!(begin.elapsed().as_secs() < 120, "{:?}", begin.elapsed());
     assert!(refused(&" ".repeat(MAX_BYTES + 1)).contains("larger than 16 MiB"));
-    let facets = "<facet nx='0' ny='0' nz='1'/>".repeat(crate::cut::MAX_PLANES + 1);
+    let facets = "<facet nx='0' ny='0' nz='1'/>".repeat(brillianteer_cut::MAX_PLANES + 1);
     let many = format!("<GemCutStudio><tier angle='0' depth='1'>{facets}</tier></GemCutStudio>");
     assert!(refused(&many).contains("more than 10000 facets"));
 }

@@ -1,10 +1,10 @@
 //! Writes a design as `.gcs`.
 
 use super::{COLOUR, RENDER, ROOT, VERSION};
-use crate::cut::{FinishNote, Indexed, Tier, Tiers};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
 use crate::scene::Specimen;
+use brillianteer_cut::{FinishNote, Indexed, Tier, Tiers};
 use brillianteer_math::{Plane, span};
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 use super::*;
-use crate::cut::{Design, MaterialRef};
 use crate::io::cutters::sample::{design, others, specimen, tiers};
 use crate::io::design_file::EncodedDesign;
+use brillianteer_cut::{Design, MaterialRef};
 use proptest::prelude::*;
 
 fn back(bytes: &[u8]) -> ImportedDesign {
@@ -91,7 +91,7 @@ fn stones_that_are_not_cut_by_tiers_are_written_by_a_gear_that_fits() {
         assert_eq!(warnings, Vec::<String>::new());
         let volumes = [&stone, &specimen(design.clone())].map(|s| s.stone().unwrap().polytope.volume());
         assert!((volumes[0] - volumes[1]).abs() < 1e-10, "{volumes:?}");
-        let moved = matches!(stone.design.cut, crate::cut::Cut::Planes(_));
+        let moved = matches!(stone.design.cut, brillianteer_cut::Cut::Planes(_));
         assert_eq!(lost.iter().any(|text| text.contains("is moved by (-5.0")), moved, "{lost:?}");
         let tiers = tiers(&mut design);
         assert_eq!(tiers.gear, 96);

@@ -1,10 +1,10 @@
 //! Writes a design as `.gem`.
 
 use super::{END, LINES, UNKNOWN};
-use crate::cut::{Tier, Tiers, with_finish};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
 use crate::scene::Specimen;
+use brillianteer_cut::{Tier, Tiers, with_finish};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -54,7 +54,7 @@ impl Texts {
 pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = Vec::new();
     let tiers = cutters::tiers_of(specimen, &mut lost);
-    let first = tiers.headers.iter().take(LINES).find(|line| crate::cut::is_printable(line.trim()));
+    let first = tiers.headers.iter().take(LINES).find(|line| brillianteer_cut::is_printable(line.trim()));
     cutters::untold(&specimen.design, first, &mut lost);
     left_out(&tiers, &mut lost);
     let index = cutters::refractive_index(specimen, &mut lost);

@@ -3,13 +3,13 @@
 use super::file::{self, MaterialHint, MeshFile, MeshFormat, Statement};
 use super::parts::{ChosenPart, MeshBody};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful, usual_up};
-use crate::cut::from_mesh::{
-    Evening, FacetError, FromMesh, TablePart, Up, UpFound, directions, find_up, from_mesh,
-};
-use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
 use brillianteer_base::{Fault, FileError};
+use brillianteer_cut::from_mesh::{
+    Evening, FacetError, FromMesh, TablePart, Up, UpFound, directions, find_up, from_mesh,
+};
+use brillianteer_cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use brillianteer_math::faceting::{
     Change, Faceted, NotFaceted, SurfaceKind, Unfaceted, faceted_hull, facets, hull_facets,
 };

@@ -8,8 +8,8 @@
 mod ply;
 
 use super::file::{MaterialHint, STL_HEADER, Statement};
-use crate::cut::MaterialRef;
 use crate::scene::Body;
+use brillianteer_cut::MaterialRef;
 use brillianteer_math::{Surface, rounded, triangulate};
 use glam::DVec3;
 use serde_json::{Value, json};

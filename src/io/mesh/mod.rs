@@ -7,7 +7,7 @@
 //! 2. the triangles are mended into a closed surface ([`math::mending`](brillianteer_math::mending)); `parts` takes one of the
 //!    solids in it, whose facets are found ([`math::faceting`](brillianteer_math::faceting));
 //! 3. `place` decides which way is up, and `size` the size of the stone;
-//! 4. `design` makes a stone of the facets ([`cut::from_mesh`](crate::cut::from_mesh)), or of the triangles where the solid is
+//! 4. `design` makes a stone of the facets ([`cut::from_mesh`](brillianteer_cut::from_mesh)), or of the triangles where the solid is
 //!    not convex, and collects notes and warnings.
 //!
 //! `export` writes stones as meshes. `metal` reads meshes of opaque bodies, which need not be closed.

@@ -3,10 +3,10 @@
 
 use super::file::{MeshFormat, Stands, Statement};
 use super::size::MeshSize;
-use crate::cut::MaterialRef;
-use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshOptions, MeshUnit};
 use brillianteer_base::Fault;
+use brillianteer_cut::MaterialRef;
+use brillianteer_cut::from_mesh::Up;
 use brillianteer_math::Pose;
 use brillianteer_math::Surface;
 use glam::DVec3;

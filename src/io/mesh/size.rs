@@ -4,9 +4,9 @@
 //! stones write millimetres.
 
 use super::file::MeshFormat;
-use crate::cut::{DEFAULT_DIAMETER_MM, DIAMETERS_MM};
 use crate::io::mesh_options::{METRE, MeshUnit};
 use brillianteer_base::Fault;
+use brillianteer_cut::{DEFAULT_DIAMETER_MM, DIAMETERS_MM};
 use std::ops::RangeInclusive;
 
 /// The diameters in mm that a cut stone plausibly has. Models for pictures often have other sizes: 1000 in any unit, or 1 in

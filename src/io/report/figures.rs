@@ -1,12 +1,12 @@
 //! The tables of a report.
 
 use super::stone::{ReportedLight, ReportedStone};
-use crate::cut::{Cut, ProportionReport, Spread};
 use crate::io::export::FigureReport;
 use crate::measure::{
     EightfoldPattern, FaceUpSize, Interval, MeasureName, OctantUnit, facet_deviations, measure_words,
 };
 use crate::picture::{ReportTable, TextFlow};
+use brillianteer_cut::{Cut, ProportionReport, Spread};
 use brillianteer_math::{fixed, signed};
 
 /// Deviations and departures below this are printed as 0, and then no facet or octant is named as the worst.

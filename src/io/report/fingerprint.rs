@@ -89,9 +89,9 @@ fn triangles(mesh: &TriangleMesh) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, RoundBrilliant, TOLKOWSKY};
     use crate::io::{asc, cut_file, library};
     use crate::scene::{Specimen, Stone};
+    use brillianteer_cut::{Crown, RoundBrilliant, TOLKOWSKY};
     use brillianteer_math::Plane;
     use std::sync::Arc;
 

@@ -3,11 +3,11 @@
 use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, figures, provenance};
-use crate::cut::Cut;
 use crate::io::Failure;
 use crate::measure::MeasureName;
 use crate::picture::{FigureRow, Report, ReportFigure, ReportPart, ReportTable};
 use crate::scene::DomeLight;
+use brillianteer_cut::Cut;
 
 /// The greatest height of the pictures in scopes, as a part of the width of the text.
 const PICTURES: f64 = 0.24;

@@ -3,7 +3,6 @@
 use super::fingerprint::fingerprint;
 use super::pictures::{NamedDrawing, drawings, pictures};
 use super::tilts::TiltCurves;
-use crate::cut::{Cut, Outline};
 use crate::io::Failure;
 use crate::io::export::{
     Event, FigureReport, HeartsReport, MeasureReport, Reporter, Viewing, WorkShares, hearts, light_measures,
@@ -13,6 +12,7 @@ use crate::measure::{Interval, MeasureName, facet_deviations};
 use crate::picture::Scoped;
 use crate::render::Renderer;
 use brillianteer_base::Watch;
+use brillianteer_cut::{Cut, Outline};
 use brillianteer_math::{Basis, Symmetry};
 use glam::DVec3;
 

@@ -1,8 +1,8 @@
 //! A ring in a scene file.
 
 use super::shared::{Angles, leaning};
-use crate::cut::{MaterialRef, Size};
 use crate::scene::{Pose, Ring};
+use brillianteer_cut::{MaterialRef, Size};
 use brillianteer_optics::Metal;
 use glam::{DQuat, DVec3};
 

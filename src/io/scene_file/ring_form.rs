@@ -151,7 +151,7 @@ fn named<T: Copy>(key: &str, given: &str, known: &[(&'static str, T)]) -> Result
 mod tests {
     use super::super::{is_meant_as_scene, parse, write};
     use super::*;
-    use crate::cut::Size;
+    use brillianteer_cut::Size;
     use brillianteer_optics::Metal;
     use glam::{DQuat, DVec3};
 

@@ -2,10 +2,10 @@
 
 use super::super::cut_file::material_form::{MaterialForm, path_of};
 use super::super::cut_file::values::{Numbers, OneOf, Pairs};
-use crate::cut::{MaterialRef, Size, SizeError};
 use crate::scene::POLISHED;
 use brillianteer_base::Fault;
 use brillianteer_base::nearest;
+use brillianteer_cut::{MaterialRef, Size, SizeError};
 use brillianteer_optics::Metal;
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};

@@ -83,11 +83,11 @@ fn divide_by_silhouette(partials: &mut BeamPartials, beams: &Beams, parts: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use crate::measure::LightMeasures;
     use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace_bounces};
     use brillianteer_base::unwatched;
+    use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use brillianteer_math::Plane;
     use glam::DVec3;
 

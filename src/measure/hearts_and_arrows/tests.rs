@@ -1,8 +1,8 @@
 use super::*;
-use crate::cut::{LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 use crate::measure::by_beams;
 use crate::scene::{Scope, VIEWER_CONES_DEG};
 use brillianteer_base::unwatched;
+use brillianteer_cut::{LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 use brillianteer_math::Plane;
 use glam::DVec2;
 

@@ -1,8 +1,8 @@
 //! Marks of an audit's findings in a facet diagram: amber outlines of facets, and rings around corners.
 
-use crate::cut::Finding;
 use crate::picture::drawing::{DrawnAspect, Sheet};
 use crate::scene::Stone;
+use brillianteer_cut::Finding;
 use brillianteer_math::Facet;
 use glam::DVec3;
 

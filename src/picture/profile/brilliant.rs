@@ -5,8 +5,8 @@
 
 use super::super::drawing::{Align, DIMENSION};
 use super::{BESIDE, Dimensions, Drawing, GAP, LINE, Overflow, Span, degrees, percent};
-use crate::cut::{Derived, RoundBrilliant};
 use crate::scene::Stone;
+use brillianteer_cut::{Derived, RoundBrilliant};
 use brillianteer_math::Basis;
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_8;
@@ -156,9 +156,9 @@ impl Drawing<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use crate::picture::profile;
     use crate::scene::Stone;
+    use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 
     fn svg(given: &RoundBrilliant) -> String {
         let stone = Stone::new(&given.facets().unwrap()).unwrap();

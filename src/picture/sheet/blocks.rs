@@ -1,6 +1,6 @@
 //! The blocks of a cutter's sheet: tiers in the order in which they are cut.
 
-use crate::cut::{Tier, TierZone, Tiers, with_finish};
+use brillianteer_cut::{Tier, TierZone, Tiers, with_finish};
 use brillianteer_math::Polytope;
 use serde::{Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};

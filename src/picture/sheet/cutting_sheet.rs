@@ -1,8 +1,8 @@
 //! The content of a cutter's sheet, as plain data.
 
 use super::blocks::{SheetBlock, SheetRow, blocks, cleaned, is_between_teeth, tiers_of_planes};
-use crate::cut::{Cut, MaterialRef, SheetFigures, Tiers};
 use crate::scene::{Specimen, Stone};
+use brillianteer_cut::{Cut, MaterialRef, SheetFigures, Tiers};
 use brillianteer_optics::{critical_angle, line};
 use serde::Serialize;
 

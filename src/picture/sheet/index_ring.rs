@@ -3,7 +3,7 @@
 
 use super::super::drawing::{Align, Frame, Ink, Sheet, Type, overlap, text_frame, text_width};
 use super::blocks::index_text;
-use crate::cut::Tiers;
+use brillianteer_cut::Tiers;
 use glam::DVec2;
 
 /// Distance from the circle that holds the stone to the ring.

@@ -4,8 +4,8 @@ use super::super::drawing::{Align, DrawnAspect, Frame, Ink, LeaderRoom, Sheet, T
 use super::cutting_sheet::CuttingSheet;
 use super::index_ring::{IndexRing, LEADERS, OUTER};
 use super::naming::{Places, SeenTier, write_names};
-use crate::cut::TierZone;
 use crate::scene::Stone;
+use brillianteer_cut::TierZone;
 use brillianteer_math::{Basis, Facet, span};
 use glam::{DVec2, DVec3};
 

@@ -6,7 +6,7 @@ use super::head::{apart, prongs, station};
 use super::rod::{Station, rod};
 use super::skin::CHORD_MM;
 use super::*;
-use crate::cut::TOLKOWSKY;
+use brillianteer_cut::TOLKOWSKY;
 use brillianteer_math::{Plane, Polytope, Pose, ShadedSurface};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;

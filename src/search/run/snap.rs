@@ -3,8 +3,8 @@
 use super::super::appraisal::Appraisal;
 use super::super::numbers::VariedNumber;
 use super::{Trials, merit};
-use crate::cut::Cut;
 use brillianteer_base::at_once;
+use brillianteer_cut::Cut;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};

@@ -147,7 +147,7 @@ impl StoneTracer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::strategy::proportions;
+    use crate::random::proportions;
     use crate::scene::{Medium, View};
     use crate::trace::ray::{Camera, RayOptions};
     use brillianteer_math::{Plane, Polytope};

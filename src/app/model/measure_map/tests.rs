@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::app::model::document::Document;
-use crate::cut::Crown;
 use brillianteer_base::{Stopped, unwatched};
+use brillianteer_cut::Crown;
 
 fn design(name: &str) -> Design {
     Document::of_library(name).unwrap().work.design

@@ -14,9 +14,9 @@ use crate::app::model::render_settings::SettingChange;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::work::Work;
 use crate::app::model::workspace::PaneLayout;
-use crate::cut::Cut;
 use crate::picture::DrawnMarks;
 use crate::scene::{LIGHTS, scattered};
+use brillianteer_cut::Cut;
 
 impl Model {
     /// Returns whether a command can be carried out now.

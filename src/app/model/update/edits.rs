@@ -5,9 +5,9 @@ use super::scene_ring;
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
-use crate::cut::{Cut, Design, ScaledSide, SolvedTiers, TierChange, TierOutcome, scaled};
 use crate::io::as_tiers;
 use crate::scene::{Copies, Pose};
+use brillianteer_cut::{Cut, Design, ScaledSide, SolvedTiers, TierChange, TierOutcome, scaled};
 use glam::DVec3;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! The key `meet` of a tier.
 
 use super::super::*;
-use crate::cut::{GivenSize, Meet, MeetPoint};
+use brillianteer_cut::{GivenSize, Meet, MeetPoint};
 
 /// Returns a file of a tier with a meet, which is at fault or not.
 fn with_meet(meet: &str) -> String {

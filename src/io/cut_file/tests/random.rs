@@ -2,7 +2,8 @@
 
 use super::super::{parse, write};
 use super::materials::custom;
-use crate::cut::{Cut, Design, MaterialRef, strategy};
+use crate::random;
+use brillianteer_cut::{Cut, Design, MaterialRef};
 use brillianteer_math::Plane;
 use brillianteer_optics::{Absorption, Dispersion, MOST_PER_MM, Material};
 use glam::DVec3;
@@ -81,7 +82,7 @@ fn cuts() -> impl Strategy<Value = Cut> {
     let plane = (names(), normal, numbers())
         .prop_map(|(name, normal, offset)| (name, Plane::new(DVec3::from_array(normal), offset)));
     prop_oneof![
-        strategy::proportions().prop_map(Cut::RoundBrilliant),
+        random::proportions().prop_map(Cut::RoundBrilliant),
         prop::collection::vec(plane, 1..20).prop_map(Cut::Planes),
     ]
 }

@@ -4,7 +4,7 @@
 //! colour that white light has after a distance. Three colours are not a spectrum: each is taken for the
 //! transmittance at one wavelength, with straight lines between them.
 
-use crate::cut::{MaterialError, MaterialRef};
+use brillianteer_cut::{MaterialError, MaterialRef};
 use brillianteer_optics::{Absorption, Dispersion, MOST_PER_MM, Material, line};
 
 /// The wavelengths in nm that stand for red, green and blue: about the middle of the range that each primary of sRGB
@@ -103,7 +103,7 @@ impl MaterialHint {
             _ => Dispersion::Constant(ior),
         };
         let bare = matches!(dispersion, Dispersion::Constant(_)) && absorption.is_clear();
-        let named = |name: &&String| crate::cut::is_printable(name);
+        let named = |name: &&String| brillianteer_cut::is_printable(name);
         let material = if bare {
             MaterialRef::Index(ior)
         } else {

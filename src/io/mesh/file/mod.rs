@@ -106,7 +106,7 @@ fn parse_by(
     let ParsedMesh { surface, normals, hint, notes, mut warnings, name, said } =
         read.and_then(limits::checked).map_err(|fault| fault.in_file(label))?;
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let printable = |name: &String| crate::cut::is_printable(name);
+    let printable = |name: &String| brillianteer_cut::is_printable(name);
     let name = name.filter(printable).or(stem.filter(printable)).unwrap_or_else(|| "mesh".to_owned());
     let statement = said.and_then(|said| match Statement::parse(&said) {
         Ok(statement) => Some(statement),

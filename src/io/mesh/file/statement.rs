@@ -6,8 +6,8 @@
 //! and the highest point; `m`, the middle of the volume; and `n`, the material's name or index, which ends the line. Volume,
 //! points and middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
 
-use crate::cut::MaterialRef;
 use brillianteer_base::Fault;
+use brillianteer_cut::MaterialRef;
 use brillianteer_math::{Surface, rounded};
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;

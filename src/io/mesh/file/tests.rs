@@ -11,11 +11,11 @@ mod unusual;
 
 use super::statement::Measures;
 use super::*;
-use crate::cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
-use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
 use crate::scene::{Body, Specimen, Stone};
+use brillianteer_cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
+use brillianteer_cut::{Cut, Design, MaterialRef};
 use brillianteer_math::Plane;
 use brillianteer_math::faceting::{Faceted, SurfaceKind, facets};
 use glam::{DQuat, DVec3};
@@ -23,7 +23,7 @@ use glam::{DQuat, DVec3};
 fn brilliant(girdle_facets: u32) -> Stone {
     let design = cut_file::read(concat!(env!("CARGO_MANIFEST_DIR"), "/cuts/tolkowsky.toml")).unwrap();
     let Cut::RoundBrilliant(cut) = design.cut else { panic!("tolkowsky is a brilliant") };
-    let cut = Cut::RoundBrilliant(crate::cut::RoundBrilliant { girdle_facets, culet: 1.0, ..cut });
+    let cut = Cut::RoundBrilliant(brillianteer_cut::RoundBrilliant { girdle_facets, culet: 1.0, ..cut });
     Stone::new(&Design { cut, ..design }.facets().unwrap()).unwrap()
 }
 

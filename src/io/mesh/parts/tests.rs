@@ -1,12 +1,12 @@
 //! Files with several solids, and with pieces that are no solids.
 
-use crate::cut::Cut;
 use crate::io::design_file::ImportedDesign;
 use crate::io::mesh::read;
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
 use crate::scene::Specimen;
 use crate::solids::{Triangles, extruded};
 use brillianteer_base::FileError;
+use brillianteer_cut::Cut;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::path::Path;

@@ -101,8 +101,8 @@ impl Beams {
 mod tests {
     use super::super::{BeamOptions, grow::trace_bounces};
     use super::*;
-    use crate::cut::TOLKOWSKY;
     use crate::scene::{Medium, View};
+    use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::Plane;
 
     const BOUNCES: u32 = 5;

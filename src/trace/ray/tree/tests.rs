@@ -1,4 +1,4 @@
-use crate::cut::strategy::proportions;
+use crate::random::proportions;
 use crate::scene::{Medium, Projection, View};
 use crate::solids::{Triangles, clasp, heart, star};
 use crate::trace::DispersedRay;

@@ -17,7 +17,7 @@ fn real(name: &str) -> Option<MeshFile> {
 fn tiers(stone: &FromMesh) -> Vec<(String, usize, f64)> {
     let mut tiers: Vec<(String, usize, f64)> = vec![];
     for (name, plane) in &stone.facets {
-        let stem = crate::cut::tier_stem(name).to_owned();
+        let stem = brillianteer_cut::tier_stem(name).to_owned();
         let slope = plane.normal.z.abs().min(1.0).acos().to_degrees();
         match tiers.last_mut().filter(|t| t.0 == stem) {
             Some(last) => last.1 += 1,
