@@ -41,7 +41,6 @@ pub mod io;
 pub mod measure;
 pub mod picture;
 pub mod render;
-pub mod scene;
 pub mod search;
 pub mod trace;
 
@@ -50,5 +49,6 @@ pub use brillianteer_base as base;
 pub use brillianteer_cut as cut;
 pub use brillianteer_math as math;
 pub use brillianteer_optics as optics;
+pub use brillianteer_scene as scene;
 pub use glam;
 pub use render::measure;

@@ -18,8 +18,8 @@ mod sight;
 mod tests;
 
 use crate::picture::DrawnMarks;
-use crate::scene::Stone;
 use brillianteer_cut::{Cut, ProfileHandle};
+use brillianteer_scene::Stone;
 use egui::accesskit::Role;
 use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Sense, Tooltip, Ui, WidgetInfo};
 use frame::{MeasuredProfile, Offered, ProfileFrame};

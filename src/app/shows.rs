@@ -2,7 +2,7 @@
 
 use crate::app::described::described;
 use crate::picture::{Picture, Scoped, named};
-use crate::scene::Side;
+use brillianteer_scene::Side;
 use serde::{Deserialize, Serialize};
 
 described! {

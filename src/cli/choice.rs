@@ -6,7 +6,7 @@ use crate::io::export::OutputFormat;
 use crate::io::mesh_options::MeshForm;
 use crate::picture::PaperSize;
 use crate::render::Wanted;
-use crate::scene::Movement;
+use brillianteer_scene::Movement;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 /// A value, its name, and its meaning.

@@ -91,7 +91,7 @@ fn exists(option: Option<&str>, word: &str) -> bool {
     let is_file = word.contains('.') || word == "-";
     match option {
         Some("--material") => word.parse::<f64>().is_ok() || brillianteer_optics::material(word).is_ok(),
-        Some("--light") => is_file || crate::scene::light(word).is_some(),
+        Some("--light") => is_file || brillianteer_scene::light(word).is_some(),
         Some("--views") => word.split(',').all(|name| crate::picture::named(name).is_some()),
         Some("--scope") => is_file || crate::picture::named(word).is_some(),
         Some(_) => true,

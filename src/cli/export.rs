@@ -10,7 +10,7 @@ use crate::io::export::{self, OutputFormat, Outputs, first_twice};
 use crate::io::{Failure, MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
 use crate::render::{Card, Renderer};
-use crate::scene::Glare;
+use brillianteer_scene::Glare;
 use clap::Args;
 use std::path::{Path, PathBuf};
 

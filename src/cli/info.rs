@@ -11,12 +11,12 @@ use crate::io::STANDARD;
 use crate::io::assembly::{Assembly, MadeRing};
 use crate::io::built_design::is_scene;
 use crate::io::mesh::MeshBody;
-use crate::scene::{ALLOYS, Alloy, Body};
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{
     AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
 };
 use brillianteer_math::{Facet, Polytope, fixed, rounded};
+use brillianteer_scene::{ALLOYS, Alloy, Body};
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};

@@ -12,8 +12,8 @@ use crate::io::{Failure, STANDARD, is_standard, write_linear_exr, write_rgba_png
 use crate::picture::liquid_glass::{Cost, GlassPane, LightFrom, PaneQuality, Shifts, layer, pane};
 use crate::picture::{Develop, Linear, Tone, develop};
 use crate::render::{Job, PaneProduct, Quality, Renderer};
-use crate::scene::Panorama;
 use brillianteer_optics::linear_from_encoded;
+use brillianteer_scene::Panorama;
 use clap::Args;
 use glam::{DVec2, DVec4};
 use std::path::{Path, PathBuf};

@@ -5,8 +5,8 @@ use crate::io::assembly::Assembly;
 use crate::io::library::{CUTS, SCENES, cut, scene};
 use crate::io::{Failure, cut_file, light_file, lighting, scene_file, scope_file};
 use crate::picture::{Picture, named, names};
-use crate::scene::{LIGHTS, Scope, light};
 use brillianteer_optics::{line, materials};
+use brillianteer_scene::{LIGHTS, Scope, light};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -131,7 +131,7 @@ impl Scopes {
         }
         let Some(name) = &self.name else {
             let line = |scope: Scope| {
-                let band = |b: &crate::scene::Band| format!("{} from {}", b.name, b.from);
+                let band = |b: &brillianteer_scene::Band| format!("{} from {}", b.name, b.from);
                 format!("{:<14}{}", scope.name, scope.bands.iter().map(band).collect::<Vec<_>>().join(", "))
             };
             return print(&all().map(line).collect::<Vec<_>>().join("\n"));
@@ -167,7 +167,7 @@ impl Lights {
             return print(&json(&json!(known.collect::<Vec<_>>())));
         }
         let Some(name) = &self.name else {
-            let line = |light: crate::scene::Light| format!("{:<14}{}", light.name, light.description);
+            let line = |light: brillianteer_scene::Light| format!("{:<14}{}", light.name, light.description);
             return print(&known.map(line).collect::<Vec<_>>().join("\n"));
         };
         let light =

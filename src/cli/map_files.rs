@@ -7,7 +7,7 @@ use crate::io::refraction::{
 };
 use crate::io::{Failure, is_standard, write_rgba_png};
 use crate::picture::{Develop, RefractionMap, Tone, develop, refract};
-use crate::scene::Panorama;
+use brillianteer_scene::Panorama;
 use clap::ValueEnum;
 use glam::DVec2;
 use std::path::{Path, PathBuf};

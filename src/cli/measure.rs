@@ -15,8 +15,8 @@ use crate::measure::{
 };
 use crate::picture::Scoped;
 use crate::render::{Card, Renderer};
-use crate::scene::{DomeLight, Glare};
 use brillianteer_math::{fixed, signed};
+use brillianteer_scene::{DomeLight, Glare};
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;

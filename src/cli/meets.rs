@@ -2,9 +2,9 @@
 
 use super::console::say;
 use crate::io::as_tiers;
-use crate::scene::Specimen;
 use brillianteer_cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
 use brillianteer_math::fixed;
+use brillianteer_scene::Specimen;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fmt::Write;

@@ -7,9 +7,9 @@ use crate::io::{Failure, scope_file};
 use crate::measure::STANDARD_ERROR;
 use crate::picture::{Picture, Scoped, named, names};
 use crate::render::{Renderer, Unfit, Wanted};
-use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
 use brillianteer_base::nearest;
 use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};
+use brillianteer_scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 

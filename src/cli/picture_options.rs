@@ -6,7 +6,7 @@ use super::options::{OptionError, number};
 use super::specimen_options::SpecimenOptions;
 use crate::picture::{Bloom, Overlay, Smoothing, Tone};
 use crate::render::{USUAL_BOUNCES, Wanted};
-use crate::scene::Movement;
+use brillianteer_scene::Movement;
 use clap::Args;
 
 /// The largest side of a picture under light, in pixels.

@@ -14,9 +14,9 @@ use crate::render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
-use crate::scene::{Film, Mipmap, Scene, View, Viewpoint};
 use crate::trace::ray::{self, Camera, RayOptions};
 use brillianteer_base::Watch;
+use brillianteer_scene::{Film, Mipmap, Scene, View, Viewpoint};
 use glam::DVec2;
 use std::cell::RefCell;
 use std::path::Path;

@@ -15,7 +15,7 @@ use crate::io::export::Event;
 use crate::io::refraction::{MOST_MAP_BANDS, MOST_MAP_PIXELS, MOST_PLACES};
 use crate::picture::{Backdrop, Background, Carried};
 use crate::render::{Card, Job, MapProduct, Product, Rendered, Renderer};
-use crate::scene::{Film, View};
+use brillianteer_scene::{Film, View};
 use clap::Args;
 use glam::DVec2;
 use std::path::{Path, PathBuf};

@@ -6,10 +6,10 @@ use crate::io::mesh::MeshBody;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, is_standard};
 use crate::measure::MeasureName;
-use crate::scene::{self, Stone};
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{MaterialError, MaterialRef, Size};
 use brillianteer_optics::{Dispersion, Material};
+use brillianteer_scene::Stone;
 use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::path::Path;
@@ -21,7 +21,7 @@ pub struct LoadedSpecimen {
     /// The path or name as given on the command line.
     pub path: String,
     /// The stone, built from its design.
-    pub made: scene::Specimen,
+    pub made: brillianteer_scene::Specimen,
     /// The standard errors of the facets of a scan; empty for other designs.
     pub errors: Vec<FacetError>,
     /// The first 256 bodies of a mesh that has several; empty for any other design.
@@ -31,9 +31,9 @@ pub struct LoadedSpecimen {
 }
 
 impl Deref for LoadedSpecimen {
-    type Target = scene::Specimen;
+    type Target = brillianteer_scene::Specimen;
 
-    fn deref(&self) -> &scene::Specimen {
+    fn deref(&self) -> &brillianteer_scene::Specimen {
         &self.made
     }
 }

@@ -14,7 +14,7 @@ use crate::io::{
     AnimationFormat, Failure, Frames, check_writable, is_standard, write_animation, write_rgba_png,
 };
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName};
-use crate::scene::Viewpoint;
+use brillianteer_scene::Viewpoint;
 use clap::Args;
 use std::path::PathBuf;
 

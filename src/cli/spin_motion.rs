@@ -1,7 +1,7 @@
 //! The motion of a stone in an animation, frame by frame.
 
-use crate::scene::{Lean, View, Viewpoint};
 use brillianteer_math::fixed;
+use brillianteer_scene::{Lean, View, Viewpoint};
 use clap::ValueEnum;
 use glam::DQuat;
 

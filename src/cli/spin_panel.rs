@@ -10,10 +10,10 @@ use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
 use crate::io::{Failure, rasterize, with_cover};
 use crate::measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
-use crate::scene::Lean;
 use brillianteer_base::Watch;
 use brillianteer_cut::Design;
 use brillianteer_optics::line;
+use brillianteer_scene::Lean;
 
 /// The least width of pictures with curves, in pixels.
 pub const LEAST_PLOTTED: u32 = 320;
@@ -237,7 +237,7 @@ impl<'a> SpinPanel<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Viewpoint;
+    use brillianteer_scene::Viewpoint;
 
     fn axis_of(motion: StoneMotion, swing_deg: f64, frames: u32) -> Result<PlotAxis, Failure> {
         let motion = SpinMotion { motion, rest: Viewpoint::default(), swing_deg, frames };

@@ -6,13 +6,13 @@ use super::mesh::read_shaded;
 use super::mesh_options::{MeshOptions, MeshPart};
 use super::scene_file::{self, Entry, MetalEntry, SceneFile};
 use super::{Failure, is_standard, library};
-use crate::scene::{
-    Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene, Specimen, Viewpoint,
-    overlapping,
-};
 use brillianteer_cut::{Design, MaterialRef, Size};
 use brillianteer_math::{ShadedMesh, bounds};
 use brillianteer_optics::{Material, Metal};
+use brillianteer_scene::{
+    Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene, Specimen, Viewpoint,
+    overlapping,
+};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

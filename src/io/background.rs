@@ -7,12 +7,12 @@ use super::text::unreadable;
 use super::{Failure, rasterize};
 use crate::picture::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern, Tone};
-use crate::scene::{Panorama, World};
 use ::png::{BitDepth, ColorType};
 use brillianteer_base::Watch;
 use brillianteer_base::nearest;
 use brillianteer_base::{FileError, NameOrFileError};
 use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
+use brillianteer_scene::{Panorama, World};
 use std::fmt;
 use std::path::{Path, PathBuf};
 

@@ -5,11 +5,11 @@ use super::mesh::{self, read_bodies, upward};
 use super::mesh_options::{MeshOptions, MeshPart};
 use super::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use super::text;
-use crate::scene::{MOST_STONES, Movement};
 use brillianteer_base::FileError;
 use brillianteer_cut::from_mesh::Up;
 use brillianteer_cut::{MaterialRef, Size, is_printable};
 use brillianteer_math::Pose;
+use brillianteer_scene::{MOST_STONES, Movement};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 

@@ -6,10 +6,10 @@ use super::library::{self, CUTS, SCENES};
 use super::mesh::MeshBody;
 use super::mesh_options::MeshOptions;
 use super::{Failure, is_standard, scene_file};
-use crate::scene::Specimen;
 use brillianteer_base::FileError;
 use brillianteer_base::nearest;
 use brillianteer_cut::from_mesh::FacetError;
+use brillianteer_scene::Specimen;
 use std::ops::Deref;
 use std::path::Path;
 

@@ -2,8 +2,8 @@
 
 use super::{DrawingError, Failure, WriteError, in_tiers, pdf, rasterize, write as write_whole, write_png};
 use crate::picture::{CuttingSheet, PaperSize, sheet_pages};
-use crate::scene::{Specimen, Stone};
 use brillianteer_cut::{Cut, TierZone, Tiers};
+use brillianteer_scene::{Specimen, Stone};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 

@@ -8,9 +8,9 @@ use super::mesh_options::MeshOptions;
 use super::{Failure, asc, foreign, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use super::{write_glb, write_obj, write_ply, write_stl};
-use crate::scene::{Body, Specimen};
 use brillianteer_base::{Fault, FileError};
 use brillianteer_cut::{Design, MaterialRef};
+use brillianteer_scene::{Body, Specimen};
 use std::path::Path;
 
 mod encoded;

@@ -136,9 +136,9 @@ mod tests {
     use super::legible::assert_legible;
     use super::*;
     use crate::picture::{DiagramStyle, Inks, diagram, profile};
-    use crate::scene::Stone;
     use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use brillianteer_math::Plane;
+    use brillianteer_scene::Stone;
     use glam::DVec3;
 
     /// Returns brilliants far beyond what is cut: every possible combination of small, usual and large proportions.

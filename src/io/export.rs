@@ -75,7 +75,7 @@ impl OutputFormat {
 pub struct Outputs {
     /// The folder, which is created if it is missing. `-` is standard output, which takes one file.
     pub folder: PathBuf,
-    /// The beginning of the files' names. The [`suffix`](crate::scene::Viewpoint::suffix) of the view follows in the names
+    /// The beginning of the files' names. The [`suffix`](brillianteer_scene::Viewpoint::suffix) of the view follows in the names
     /// of files that show the view.
     pub stem: String,
     /// The pictures, each with the name that it bears in the files' names.

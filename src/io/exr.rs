@@ -2,8 +2,8 @@
 
 use super::atomic::{WriteError, write};
 use crate::picture::{Layer, paint};
-use crate::scene::Film;
 use brillianteer_base::Watch;
+use brillianteer_scene::Film;
 use exr::block::writer::{ChunksWriter, ParallelBlocksCompressor};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::{Error, UnitResult};

@@ -2,8 +2,8 @@
 
 use super::text;
 use super::toml_text::TomlText;
-use crate::scene::{Light, LightError};
 use brillianteer_base::{Fault, FileError};
+use brillianteer_scene::{Light, LightError};
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes.
@@ -62,7 +62,7 @@ fn path_of(error: &LightError, light: &Light) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{LIGHTS, PanoramaRef};
+    use brillianteer_scene::{LIGHTS, PanoramaRef};
     use proptest::prelude::*;
 
     fn message(text: &str) -> String {
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn every_light_of_the_program_reads_as_it_was_written() {
         for name in LIGHTS {
-            let known = crate::scene::light(name).unwrap();
+            let known = brillianteer_scene::light(name).unwrap();
             assert_eq!(light(&text(&known).unwrap()).unwrap(), known, "{name}");
         }
         let panorama = PanoramaRef { file: "skies/noon \"1\".exr".into(), exposure: -0.1, turn: 1.0 / 3.0 };
@@ -154,7 +154,7 @@ mod tests {
             length in 0..20_usize,
             put in "[-\\[\\]{}\"=.,0-9a-z\n]{0,12}",
         ) {
-            let mut text: Vec<char> = text(&crate::scene::light(name).unwrap()).unwrap().chars().collect();
+            let mut text: Vec<char> = text(&brillianteer_scene::light(name).unwrap()).unwrap().chars().collect();
             let from = (at * text.len() as f64) as usize;
             text.splice(from..(from + length).min(text.len()), put.chars());
             let text: String = text.into_iter().collect();

@@ -1,12 +1,12 @@
 //! Loads the light of a scene: one that comes with the program, a light file, or a panorama.
 
 use super::{Failure, light_file, panorama};
-use crate::scene::{LIGHTS, Light, Panorama, light};
 use crate::trace::environment::EnvironmentMap;
 pub use crate::trace::environment::Lighting;
 use brillianteer_base::NameOrFileError;
 use brillianteer_base::Watch;
 use brillianteer_base::nearest;
+use brillianteer_scene::{LIGHTS, Light, Panorama, light};
 use std::path::PathBuf;
 
 impl Lighting {
@@ -84,8 +84,8 @@ pub fn unknown(name: &str) -> String {
 mod tests {
     use super::*;
     use crate::io::write_rgba_png;
-    use crate::scene::World;
     use brillianteer_base::unwatched;
+    use brillianteer_scene::World;
     use std::ops::ControlFlow;
     use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -11,8 +11,8 @@ mod raster;
 mod shared;
 
 use super::text::unreadable;
-use crate::scene::Panorama;
 use brillianteer_base::{Fault, FileError};
+use brillianteer_scene::Panorama;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;

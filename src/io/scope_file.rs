@@ -2,8 +2,8 @@
 
 use super::text;
 use super::toml_text::TomlText;
-use crate::scene::{Scope, ScopeError};
 use brillianteer_base::{Fault, FileError};
+use brillianteer_scene::{Scope, ScopeError};
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes.

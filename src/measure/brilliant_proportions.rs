@@ -1,9 +1,9 @@
 //! The proportions of a round brilliant, measured on the stone, whether it is a design, a cutter's file or a scan.
 
 use super::facet_deviations::{FacetClasses, LeaningFacet, NotEightfold, OCTANTS, facet_deviations};
-use crate::scene::Stone;
 use brillianteer_cut::{BrilliantProportions, Outline};
 use brillianteer_math::Facet;
+use brillianteer_scene::Stone;
 use std::f64::consts::FRAC_PI_8;
 
 /// Measures the proportions of a round brilliant of eight mains, as docs/optics.md defines them. Each is the mean over its facets,

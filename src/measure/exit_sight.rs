@@ -1,8 +1,8 @@
 //! The view of an eye through an exit: the head, the dome or the space below, its brightness, and the colours that
 //! the eye tells apart.
 
-use crate::scene::elevation_deg;
 use crate::trace::beam::{Beam, Beams};
+use brillianteer_scene::elevation_deg;
 
 /// The part of the surroundings that the eye sees through an exit.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -67,9 +67,9 @@ fn seen_from_above(stone: &Polytope) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Stone;
     use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
     use brillianteer_math::Plane;
+    use brillianteer_scene::Stone;
 
     const BRILLIANT: RoundBrilliant = RoundBrilliant {
         table: 57.0,

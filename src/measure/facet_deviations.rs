@@ -3,9 +3,9 @@
 //! The classes are found from the geometry alone, so that a scan without names is measured like a design. The definitions are in
 //! docs/optics.md, "Facet deviations".
 
-use crate::scene::Stone;
 use brillianteer_cut::{FacetZones, TierZone};
 use brillianteer_math::{Facet, Plane, span};
+use brillianteer_scene::Stone;
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_4, PI};
 

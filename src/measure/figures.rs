@@ -1,8 +1,8 @@
 //! The figures of one view, and how they are summed up from exact beams.
 
 use super::estimated::Estimate;
-use crate::scene::Scope;
 use crate::trace::beam::{BeamSums, Beams, SummedBeams};
+use brillianteer_scene::Scope;
 
 /// A number for each band of a scope, in the scope's order.
 pub type Zones = Vec<f64>;

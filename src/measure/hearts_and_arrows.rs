@@ -7,11 +7,11 @@
 use super::facet_deviations::{Mains, NotEightfold, OCTANTS, median};
 use super::interval::Interval;
 use super::octant_pattern::{CellKind, OctantFrame, OctantPattern, OctantSide, Region};
-use crate::scene::{Medium, Side, Stone, View, elevation_deg};
 use crate::trace::beam::{BeamOptions, Beams, trace};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_cut::Outline;
 use brillianteer_math::span;
+use brillianteer_scene::{Medium, Side, Stone, View, elevation_deg};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_4;
 
@@ -132,7 +132,7 @@ pub enum HeartsError {
 }
 
 /// Measures the arrows and hearts of a stone in a viewer whose camera and ring have these half angles, degrees from the axis
-/// (the program's own are [`VIEWER_CONES_DEG`](crate::scene::VIEWER_CONES_DEG)).
+/// (the program's own are [`VIEWER_CONES_DEG`](brillianteer_scene::VIEWER_CONES_DEG)).
 ///
 /// The symmetry of the stone is not used, whatever the options say, so that each octant is traced by itself.
 ///

@@ -3,7 +3,7 @@
 use super::interval::Interval;
 use super::light_measures::{LightMeasures, MeasureSettings};
 use super::pattern_settings::PatternSettings;
-use crate::scene::DomeLight;
+use brillianteer_scene::DomeLight;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::fmt;

@@ -1,7 +1,7 @@
 //! Measures in words: their names on screen and paper, their meanings, and their values.
 
 use super::{Interval, MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
-use crate::scene::DomeLight;
+use brillianteer_scene::DomeLight;
 
 /// Returns the measures that can be chosen: the usual ones and those of the pattern that an eye sees, also while the
 /// stone rocks.

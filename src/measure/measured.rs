@@ -1,7 +1,7 @@
 //! The figures of a stone in a scope, with the scope, index and tracer that they belong to.
 
 use super::figures::Figures;
-use crate::scene::Scope;
+use brillianteer_scene::Scope;
 
 /// The default part of the light that may stay unresolved where nothing is estimated. It takes a few hundredths of a
 /// second face up, and some seconds for a tilted stone.

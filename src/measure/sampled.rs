@@ -3,15 +3,15 @@
 
 use super::figures::Figures;
 #[cfg(feature = "gpu")]
-use crate::scene::Film;
-use crate::scene::{Medium, Scope, View};
-#[cfg(feature = "gpu")]
 use crate::trace::ScopeShot;
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
 use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::SolidRef;
+#[cfg(feature = "gpu")]
+use brillianteer_scene::Film;
+use brillianteer_scene::{Medium, Scope, View};
 use glam::DVec2;
 use rayon::prelude::*;
 

@@ -5,9 +5,9 @@ use super::exit_sight::brightness;
 use super::eye_grid::EyeGrid;
 use super::interval::Interval;
 use super::pattern_settings::PatternSettings;
-use crate::scene::View;
 use crate::trace::beam::Beams;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_scene::View;
 use glam::{DQuat, DVec2};
 use serde::Serialize;
 
@@ -144,7 +144,7 @@ impl Changes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Side;
+    use brillianteer_scene::Side;
 
     /// A quantity of a stone that repeats n times around it and is its own mirror image varies as cos(n φ), cos(2n φ)
     /// and so on.

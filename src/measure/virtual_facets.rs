@@ -134,11 +134,11 @@ fn images(polytope: &Polytope, view: &Basis, copy: &DMat2) -> Vec<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace};
     use brillianteer_base::unwatched;
     use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::Plane;
+    use brillianteer_scene::{Medium, View};
 
     fn stone() -> Polytope {
         let planes: Vec<Plane> = TOLKOWSKY.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();

@@ -7,12 +7,12 @@ mod shared_picture;
 use self::patches::Patches;
 use self::shared_picture::SharedPicture;
 use super::raster::Rows;
-use crate::scene::{Instance, Medium, View};
 use crate::trace::beam::{self, Beam, Beams};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass, colour};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::{Basis, Polytope, Symmetry, centroid, span};
 use brillianteer_optics::Stratum;
+use brillianteer_scene::{Instance, Medium, View};
 use glam::{DAffine2, DMat2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -134,7 +134,7 @@ impl<'a> ByBeams<'a> {
     pub fn of_rows(lit_scene: LitScene<'a>, options: beam::BeamOptions, rows: Range<u32>) -> Option<Self> {
         let [instance] = lit_scene.scene.instances.as_slice() else { return None };
         let environment = &lit_scene.environment;
-        if lit_scene.view.projection != crate::scene::Projection::Orthographic
+        if lit_scene.view.projection != brillianteer_scene::Projection::Orthographic
             || environment.backplate.is_some()
         {
             return None;

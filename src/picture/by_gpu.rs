@@ -1,10 +1,10 @@
 //! The pictures of [`by_rays`](super::by_rays), traced on a graphics card.
 
 use super::Rows;
-use crate::scene::Glare;
 use crate::trace::ScopeShot;
 use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_scene::Glare;
 
 /// Traces a picture on a graphics card, each pixel by a regular grid of rays. It calls `each` as
 /// [`by_rays::trace`](super::by_rays::trace()) does, with the same channels.

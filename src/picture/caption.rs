@@ -1,7 +1,7 @@
 //! Captions of pictures in scopes: the subject of the picture, its tracer, and the meaning of each colour.
 
 use super::drawing::{Ink, Inks, REMARK, TITLE, Type, degrees, hex, page, printable, shortened, text_width};
-use crate::scene::Scope;
+use brillianteer_scene::Scope;
 use glam::DVec2;
 use svg::Document;
 use svg::node::element::{Group, Rectangle, Text};
@@ -191,7 +191,7 @@ fn broken(text: &str, size: f64, room: f64) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ASET_CONE, Backing};
+    use brillianteer_scene::{ASET_CONE, Backing};
     use resvg::usvg::roxmltree;
 
     #[test]

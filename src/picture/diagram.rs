@@ -12,9 +12,9 @@ pub use marks::DrawnMarks;
 pub use style::DiagramStyle;
 
 use super::drawing::{Align, DrawnAspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
-use crate::scene::Stone;
 use brillianteer_cut::tier_stem;
 use brillianteer_math::{Basis, Facet, grouped};
+use brillianteer_scene::Stone;
 use glam::DVec2;
 use std::borrow::Cow;
 use svg::Document;

@@ -19,8 +19,8 @@ pub(super) use lettering::{
 pub(crate) use lettering::{degrees, percent};
 pub(super) use room::{LeaderRoom, overlap, room_for};
 
-use crate::scene::Stone;
 use brillianteer_math::{Basis, Facet};
+use brillianteer_scene::Stone;
 use glam::{DVec2, DVec3};
 use lettering::MIDDLE_OF_FIGURES;
 use std::fmt::{Display, Write};

@@ -1,6 +1,6 @@
 //! Scales photographs to the size of a picture.
 
-use crate::scene::Panorama;
+use brillianteer_scene::Panorama;
 use glam::DVec2;
 use rayon::prelude::*;
 

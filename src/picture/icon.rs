@@ -1,8 +1,8 @@
 //! The program's icon: a stone from above, each facet shaded by its angle to a light.
 
 use super::drawing::{DrawnAspect, between, hex, page};
-use crate::scene::Stone;
 use brillianteer_math::{Basis, Facet};
+use brillianteer_scene::Stone;
 use glam::{DVec2, DVec3};
 use svg::Document;
 use svg::node::element::{Group, Polygon};

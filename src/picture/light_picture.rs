@@ -1,8 +1,8 @@
 //! A small picture of a light, which shows in lists where its sources are.
 
-use crate::scene::{Light, toward};
 use crate::trace::environment::{BroadLight, channels};
 use brillianteer_optics::SrgbEncoder;
+use brillianteer_scene::{Light, toward};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use std::f64::consts::PI;
 
@@ -49,7 +49,7 @@ fn under_white(channels: DVec4) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{LIGHTS, light};
+    use brillianteer_scene::{LIGHTS, light};
 
     fn mean(codes: &[u8]) -> f64 {
         codes.iter().map(|code| f64::from(*code)).sum::<f64>() / codes.len() as f64

@@ -1,9 +1,9 @@
 //! The motion between two pictures of resting bodies under a moving eye, for temporal antialiasing.
 
 use super::MotionVector;
-use crate::scene::View;
 use crate::trace::ray::{Camera, SceneProbe};
 use crate::trace::sampling::LitScene;
+use brillianteer_scene::View;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 

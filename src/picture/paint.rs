@@ -2,9 +2,9 @@
 
 use super::Rows;
 use super::layer::Layer;
-use crate::scene::Film;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::span;
+use brillianteer_scene::Film;
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use std::ops::Range;

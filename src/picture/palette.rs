@@ -1,8 +1,8 @@
 //! Palettes turn the light in a scope's bands into the colours of pixels.
 
 use super::Rows;
-use crate::scene::Scope;
 use brillianteer_optics::{LinearRgb, SrgbEncoder};
+use brillianteer_scene::Scope;
 
 /// The colours of a scope's bands. Bands are mixed in linear light, and only the sum is encoded as sRGB.
 pub struct Palette {

@@ -8,9 +8,9 @@ pub(crate) mod brilliant;
 pub(crate) use super::drawing::{degrees, percent};
 
 use super::drawing::{Align, DIMENSION, DrawnAspect, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
-use crate::scene::Stone;
 use brillianteer_cut::{FacetZones, Outline, RoundBrilliant, TierZone};
 use brillianteer_math::{Basis, Calipers, hull, span};
+use brillianteer_scene::Stone;
 use glam::{DVec2, DVec3};
 use svg::Document;
 

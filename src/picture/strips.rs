@@ -1,7 +1,7 @@
 //! Divides a beam's outline, over which absorption makes light uneven, into strips of even light.
 
-use crate::scene::Medium;
 use brillianteer_math::{Affine, area, clip, integral_of_decay};
+use brillianteer_scene::Medium;
 use glam::DVec2;
 
 /// Depth beyond the brightest point at which a beam is as good as black, so that one strip is enough there.

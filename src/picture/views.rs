@@ -1,6 +1,6 @@
 //! The pictures that the program knows by name.
 
-use crate::scene::{ASET_CONE, Backing, Scope, Side, VIEWER_CONES_DEG};
+use brillianteer_scene::{ASET_CONE, Backing, Scope, Side, VIEWER_CONES_DEG};
 
 /// A picture that has a name.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,13 +6,13 @@ use super::job::{FiguresProduct, Job, Product, Quality};
 use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
 use crate::measure::{Bounds, Measured};
-use crate::scene::{
-    ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,
-    Viewpoint,
-};
 use brillianteer_base::unwatched;
 use brillianteer_cut::Design;
 use brillianteer_optics::{DispersionError, INDICES, INDICES_IN_WORDS, line};
+use brillianteer_scene::{
+    ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,
+    Viewpoint,
+};
 use std::sync::Arc;
 
 /// The options by which a design is measured.

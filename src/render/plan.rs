@@ -3,9 +3,9 @@
 use super::card::{Backend, Card, NoCard};
 use super::check::JobError;
 use super::job::{Job, LightProduct, Product, Steps, USUAL_BOUNCES};
-use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
 use brillianteer_math::{NotConvex, SolidRef};
+use brillianteer_scene::{Projection, View};
 use serde::{Deserialize, Serialize};
 
 /// The tracer of a request.

@@ -6,14 +6,14 @@ use super::*;
 use crate::measure::Bounds;
 use crate::picture::Linear;
 use crate::picture::{Backdrop, liquid_glass::GlassPane};
-use crate::scene::{
-    ASET_CONE, Backing, Film, Glare, Instance, Light, Mipmap, Panorama, PanoramaRef, Projection, Scene,
-    Scope, Specimen, View,
-};
 use crate::trace::environment::{EnvironmentMap, Lighting};
 use brillianteer_base::unwatched;
 use brillianteer_cut::{Design, Family, MaterialRef};
 use brillianteer_math::Pose;
+use brillianteer_scene::{
+    ASET_CONE, Backing, Film, Glare, Instance, Light, Mipmap, Panorama, PanoramaRef, Projection, Scene,
+    Scope, Specimen, View,
+};
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -427,7 +427,7 @@ fn scopes_figures_and_maps_refuse_metal_instead_of_leaving_it_out() {
     let surface =
         brillianteer_math::ShadedSurface::creased(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]], 0.5);
     let mesh = Arc::new(brillianteer_math::ShadedMesh::new(surface).unwrap());
-    let plate = crate::scene::MetalInstance::new(&mesh, brillianteer_optics::Metal::Gold);
+    let plate = brillianteer_scene::MetalInstance::new(&mesh, brillianteer_optics::Metal::Gold);
     let alone = Scene::alone(&specimen("round_brilliant"));
     for product in [scope(vec![Reading::Energy]), figures()] {
         let free = job(alone.clone(), product);
@@ -450,7 +450,7 @@ fn an_upright_light_has_its_horizon_level_behind_the_stones() {
     let basis = upright.around(&view).basis;
     assert_eq!((basis.toward, basis.right), (eye.up, -eye.toward));
     assert!((basis.right.cross(basis.up) - basis.toward).length() < 1e-12, "right-handed");
-    let light = crate::scene::light("city").unwrap();
+    let light = brillianteer_scene::light("city").unwrap();
     let map = EnvironmentMap::new(&Light::ring(), None);
     let world = Arc::new(Lighting { light, map, warnings: vec![] });
     let city = Surroundings { is_upright: true, turn: 0.7, ..Surroundings::of(world) };

@@ -3,8 +3,8 @@
 use super::goal::{GoalFault, GoalMaterial};
 use crate::measure::{Interval, MeasureName};
 use crate::render::SweepError;
-use crate::scene::SpecimenError;
 use brillianteer_math::rounded;
+use brillianteer_scene::SpecimenError;
 
 /// The reason why a design cannot be appraised, or a search cannot begin.
 #[derive(Debug, thiserror::Error)]

@@ -1,6 +1,6 @@
 //! Meets that a search keeps: the corners of a stone where four or more facets meet.
 
-use crate::scene::Stone;
+use brillianteer_scene::Stone;
 use glam::{DMat3, DVec3};
 use std::collections::{BTreeMap, HashMap};
 

@@ -4,10 +4,10 @@
 use super::goal::{AtLeastAtMost, Goal};
 use super::limits::{GIRDLE, LOWER_CLASS, NEW_FINDINGS, SHORTEST_EDGE, SMALLEST_FACET};
 use crate::measure::brilliant_proportions;
-use crate::scene::{Specimen, Stone};
 use brillianteer_cut::{
     Audit, ClassEstimate, CutClass, FindingKind, NEAR_MISS, SMALL_FACET, SheetFigures, SmallestParts,
 };
+use brillianteer_scene::{Specimen, Stone};
 use std::collections::BTreeMap;
 
 /// The part of the present size to which the smallest facet and the shortest edge may shrink where they are findings already.

@@ -3,9 +3,9 @@
 use super::appraisal::SearchError;
 use super::goal::{AtLeastAtMost, Goal};
 use super::kept_shape::{FindingCounts, audit_of, estimated_class, usual_limits};
-use crate::scene::{Specimen, Stone};
 use brillianteer_cut::{CutClass, Design, Proportion, ProportionReport, SheetFigures, SmallestParts};
 use brillianteer_optics::{critical_angle, line};
+use brillianteer_scene::{Specimen, Stone};
 
 /// The names of limits that any cut has, besides the keys of its proportions:
 ///

@@ -8,10 +8,10 @@ use super::numbers::{AS_IT_IS, VariedNumber};
 use super::terms::{GoalView, Term, views_and_terms};
 use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
-use crate::scene::{Specimen, Stone};
 use brillianteer_base::{Watch, at_once};
 use brillianteer_cut::{Cut, Design, TierOutcome, Tiers};
 use brillianteer_optics::line;
+use brillianteer_scene::{Specimen, Stone};
 
 /// The part of a number's range by which it is changed for the derivatives of the geometry.
 const GEOMETRY_STEP: f64 = 1e-4;

@@ -8,10 +8,10 @@ use super::outcome::SearchOutcome;
 use super::run::DesignSearch;
 use crate::measure::{Interval, MeasureName, MeasureSettings};
 use crate::render::Sweep;
-use crate::scene::{Specimen, Viewpoint};
 use brillianteer_base::Watch;
 use brillianteer_cut::{CutClass, Design};
 use brillianteer_optics::line;
+use brillianteer_scene::{Specimen, Viewpoint};
 use std::cmp::Ordering;
 
 /// A measure that the goal does not weigh, face up and in the design's own material.

@@ -8,9 +8,9 @@ use super::kept_shape::audit_of;
 use super::local::{climb, feel};
 use super::objective::Objective;
 use super::outcome::{ProgressPoint, SearchOutcome, SearchProgress};
-use crate::scene::Specimen;
 use brillianteer_base::{Watch, at_once};
 use brillianteer_cut::Design;
+use brillianteer_scene::Specimen;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 

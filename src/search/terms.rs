@@ -3,7 +3,7 @@
 use super::goal::{Goal, GoalMaterial, GoalMeasure};
 use super::{AtLeastAtMost, OneOrMore};
 use crate::measure::MeasureName;
-use crate::scene::Viewpoint;
+use brillianteer_scene::Viewpoint;
 
 /// A material and view in which measures are taken together.
 pub(super) struct GoalView {

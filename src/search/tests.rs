@@ -6,12 +6,12 @@ use super::{
 };
 use crate::measure::MeasureSettings;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
-use crate::scene::{DomeLight, Viewpoint};
 use brillianteer_base::{Stopped, unwatched};
 use brillianteer_cut::{
     Crown, Cut, CutClass, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
 };
 use brillianteer_optics::line;
+use brillianteer_scene::{DomeLight, Viewpoint};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -11,11 +11,11 @@ mod backplate;
 mod drawing;
 
 use super::DispersedRay;
-use crate::scene::{Light, LightError, Panorama, World, toward};
 pub(in crate::trace) use backplate::{ALONG, Photographed};
 pub use backplate::{Backplate, backplate_point};
 use brillianteer_base::{Stopped, Watch, unwatched};
 use brillianteer_math::Basis;
+use brillianteer_scene::{Light, LightError, Panorama, World, toward};
 pub use drawing::{BroadLight, channels};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
@@ -220,7 +220,7 @@ impl EnvironmentMap {
         while levels[levels.len() - 1].len() > 16 {
             levels.push(halved(&levels[levels.len() - 1]));
         }
-        let disc = |lamp: crate::scene::Lamp| Disc {
+        let disc = |lamp: brillianteer_scene::Lamp| Disc {
             toward: toward(lamp.azimuth, lamp.elevation),
             chord_squared: (2.0 * (lamp.radius.to_radians() / 2.0).sin()).powi(2),
             radiance: channels(lamp.colour) * lamp.radiance,
@@ -529,9 +529,15 @@ mod tests {
 
     #[test]
     fn the_sky_keeps_its_light_at_every_level() {
-        let dome =
-            |from, to| crate::scene::Dome { from, to, soft: 5.0, radiance: 1.0, end: None, colour: None };
-        let light = Light { dome: vec![dome(20.0, 90.0)], ..crate::scene::Light::white() };
+        let dome = |from, to| brillianteer_scene::Dome {
+            from,
+            to,
+            soft: 5.0,
+            radiance: 1.0,
+            end: None,
+            colour: None,
+        };
+        let light = Light { dome: vec![dome(20.0, 90.0)], ..brillianteer_scene::Light::white() };
         let sky = EnvironmentMap::new(&light, None);
         // The share of the sphere above 20 degrees, weighted as the map weighs it: alike at all levels.
         let mean =

@@ -42,12 +42,12 @@ pub use self::roulette::Roulette;
 pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
 pub use self::sight::{ProbeRay, SceneProbe, facet_at};
 use self::tree::Inbound;
-use crate::scene::Medium;
 use crate::trace::DispersedRay;
 use brillianteer_math::SolidRef;
 use brillianteer_optics::{
     FrostedSurface, cos_transmitted, reflect, reflected_change, refract, refracted_change,
 };
+use brillianteer_scene::Medium;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

@@ -3,10 +3,10 @@
 use super::DispersedRay;
 use super::environment::Environment;
 use super::places::{place_in_pixel, stretch_of_pixel};
-use crate::scene::{Film, Instance, Medium, Scene, View};
 use crate::trace::ray::{RayOptions, Roulette};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_optics::{SAMPLED_NM, Strata, Stratum};
+use brillianteer_scene::{Film, Instance, Medium, Scene, View};
 use glam::{DVec2, DVec3, DVec4};
 use num_complex::Complex64;
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! The subject of a picture in a scope by point rays, for the processor and for graphics cards.
 
 use super::ray::RayOptions;
-use crate::scene::{Film, Medium, Scope, View};
 use brillianteer_math::SolidRef;
+use brillianteer_scene::{Film, Medium, Scope, View};
 use glam::DVec2;
 
 /// One picture in a scope, whose rays form a regular grid in each pixel.

@@ -4,8 +4,8 @@
 use super::beam::BeamEnd;
 use super::ray::{ChainRoulette, Loss, PathLight, RayOptions, StoneTracer};
 use super::tail::ROULETTE;
-use crate::scene::Medium;
 use brillianteer_math::{Polytope, point_in_polygon};
+use brillianteer_scene::Medium;
 use glam::{DVec2, DVec3};
 
 /// Follows rays on from the ends of shared beams.

@@ -8,8 +8,8 @@
 
 use super::beam::{Beams, Flight, Front, SummedBeams};
 use super::ray::{ChainRoulette, PathLight, RayOptions, StoneTracer};
-use crate::scene::Scope;
 use brillianteer_math::{Polytope, point_in_polygon};
+use brillianteer_scene::Scope;
 use glam::{DVec2, DVec3};
 
 /// The share of a ray's light below which the ray goes on only by chance (Russian roulette).
@@ -182,11 +182,11 @@ impl<'a> Tail<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ASET_CONE, Backing, Medium, View};
     use crate::trace::beam::{BeamOptions, SumOptions, sum_up, trace};
     use brillianteer_base::unwatched;
     use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::{Plane, contains};
+    use brillianteer_scene::{ASET_CONE, Backing, Medium, View};
 
     fn brilliant() -> Polytope {
         let facets = TOLKOWSKY.facets().unwrap();

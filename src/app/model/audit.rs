@@ -1,8 +1,8 @@
 //! The audit of the stone in sight: its findings, and the selected one.
 
 use crate::picture::DrawnMarks;
-use crate::scene::{Specimen, Stone};
 use brillianteer_cut::{Audit, Finding};
+use brillianteer_scene::{Specimen, Stone};
 use std::sync::Arc;
 
 /// The audit of the present stone. It is made in the background, once for each stone.

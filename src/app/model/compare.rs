@@ -1,7 +1,7 @@
 //! The design that the present design is compared with.
 
 use crate::app::model::document::Document;
-use crate::scene::{Specimen, SpecimenError};
+use brillianteer_scene::{Specimen, SpecimenError};
 use std::sync::Arc;
 
 /// A design to compare with.

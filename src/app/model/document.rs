@@ -12,9 +12,9 @@ use super::work::{ReadMesh, Work};
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, cut_file, library};
-use crate::scene::{Companions, Copies, RingPlan, Specimen, SpecimenError};
 use brillianteer_base::FileError;
 use brillianteer_cut::{Cut, Design, Tiers};
+use brillianteer_scene::{Companions, Copies, RingPlan, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 

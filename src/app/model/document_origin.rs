@@ -3,8 +3,8 @@
 use super::render_settings::RenderSettings;
 use super::saving::Stamp;
 use super::view_history::ViewState;
-use crate::scene::{Companions, Copies};
 use brillianteer_cut::Design;
+use brillianteer_scene::{Companions, Copies};
 use std::path::PathBuf;
 
 /// Where a design comes from, and what it was when it was opened or last saved.

@@ -12,10 +12,10 @@ use crate::io::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
 use crate::measure::STANDARD_ERROR;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
-use crate::scene::{
+use brillianteer_optics::line;
+use brillianteer_scene::{
     Companions, Copies, Glare, MetalInstance, Movement, Pose, SceneRing, Side, Specimen, View, Viewpoint,
 };
-use brillianteer_optics::line;
 use std::path::PathBuf;
 use std::sync::Arc;
 

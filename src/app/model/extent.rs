@@ -1,8 +1,8 @@
 //! The extent of a stone seen from above, by which its size is stated.
 
-use crate::scene::{Body, Specimen, Stone};
 use brillianteer_cut::{Cut, Design, Outline, Tiers, round_diameter};
 use brillianteer_math::{Calipers, hull};
+use brillianteer_scene::{Body, Specimen, Stone};
 use glam::DVec3;
 
 /// The extent of a stone seen from above, in the unit of its frame (half the diameter).

@@ -1,7 +1,7 @@
 //! The position of the eye of a view: a lean, a turn of the stone about its axis, and a zoom.
 
 use crate::app::model::framing_fit::FramingFit;
-use crate::scene::{Film, Lean, Projection, Side, View};
+use brillianteer_scene::{Film, Lean, Projection, Side, View};
 use glam::{DQuat, DVec2};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, TAU};

@@ -1,10 +1,10 @@
 //! The forms of two dialogs: one fits the design to another material, one to a piece of rough or a weight.
 
 use crate::io::Failure;
-use crate::scene::{Specimen, Stone};
 use brillianteer_cut::{
     Design, Finished, MaterialRef, RetargetError, RetargetRule, Retargeted, Rough, RoughError, Size, retarget,
 };
+use brillianteer_scene::{Specimen, Stone};
 
 /// A rule by which angles follow a material, without its factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,7 @@
 use super::document::Document;
 use super::framing_fit::{FramingFit, OUTGROWN, SHRUNK};
 use super::scene_fit::FittedScene;
-use crate::scene::{Specimen, View};
+use brillianteer_scene::{Specimen, View};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -130,10 +130,10 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
     use crate::app::model::framing_fit::bounds;
-    use crate::scene::{Film, Projection};
     use crate::trace::ray::Camera;
     use brillianteer_cut::{Cut, Design};
     use brillianteer_math::Plane;
+    use brillianteer_scene::{Film, Projection};
 
     /// Returns a stone of planes: half a prism, which lies beside the origin.
     fn half_round(reach: f64) -> Arc<Specimen> {

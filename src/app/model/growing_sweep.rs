@@ -3,9 +3,9 @@
 use crate::app::studio::{SweepOrder, SweptPoint};
 use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::render::{Sweep, SweepAxis, SweepError, SweptStone};
-use crate::scene::Viewpoint;
 use brillianteer_cut::Design;
 use brillianteer_optics::line;
+use brillianteer_scene::Viewpoint;
 use std::sync::Arc;
 
 /// The points of a sweep that have been answered.

@@ -265,7 +265,7 @@ impl MeasureMap {
         let held = held.filter_map(|row| design.cut.proportion(row.pair?));
         let mut moved = at(&options.axes, design, to)?;
         held.for_each(|row| row.hold(&mut moved.cut));
-        moved.check().map_err(|fault| SweepError::from(crate::scene::SpecimenError::from(fault)))?;
+        moved.check().map_err(|fault| SweepError::from(brillianteer_scene::SpecimenError::from(fault)))?;
         Ok(moved.cut)
     }
 }

@@ -4,7 +4,7 @@ use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use crate::app::studio::SweepOrder;
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue};
-use crate::scene::Specimen;
+use brillianteer_scene::Specimen;
 use std::sync::Arc;
 
 /// The azimuths that are offered, degrees in the stone's frame.

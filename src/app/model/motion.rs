@@ -1,6 +1,6 @@
 //! The motion of time in renders: copies tumble and plates wave. Figures and scopes are of the design at rest.
 
-use crate::scene::{Copies, Movement, Pose, Specimen};
+use brillianteer_scene::{Copies, Movement, Pose, Specimen};
 use std::sync::Arc;
 
 /// The time that renders show.

@@ -5,7 +5,7 @@ use super::motion::WaveCache;
 use crate::app::shows::Shows;
 use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, SweepOrder, Which};
 use crate::picture::DrawnMarks;
-use crate::scene::{Companions, Pose, Side, Specimen, View};
+use brillianteer_scene::{Companions, Pose, Side, Specimen, View};
 use std::sync::Arc;
 
 /// A view in sight, and the size of its picture in pixels.

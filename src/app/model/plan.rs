@@ -6,7 +6,7 @@ use super::motion::WaveCache;
 use super::ordering::Orders;
 use crate::app::shows::Shows;
 use crate::app::studio::{Paper, Shot};
-use crate::scene::View;
+use brillianteer_scene::View;
 use std::path::PathBuf;
 
 /// Plans an export of the open document, seen by the eye of the linked views.
@@ -77,7 +77,7 @@ mod tests {
     use crate::app::model::update;
     use crate::app::model::workspace::Workspace;
     use crate::io::export::OutputFormat;
-    use crate::scene::{Copies, Side};
+    use brillianteer_scene::{Copies, Side};
 
     #[test]
     fn a_plate_alone_is_exported_in_the_phase_and_the_frame_in_which_it_is_shown() {

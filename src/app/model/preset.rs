@@ -4,9 +4,11 @@ use super::render_settings::RenderSettings;
 use crate::io::assembly::{Assembly, StonePlace};
 use crate::io::scene_file::{self, RingEntry, SceneFile};
 use crate::io::{Failure, library};
-use crate::scene::{Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen};
 use brillianteer_base::FileError;
 use brillianteer_cut::{Cut, Design, MaterialRef};
+use brillianteer_scene::{
+    Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen,
+};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -243,7 +245,7 @@ mod tests {
                 assert!(at.distance(corner) < 1e-9, "{name}: {at} instead of {corner}");
             }
             assert!(own.next().is_none() && others.next().is_none());
-            let highest = |scene: f64, metals: &[crate::scene::MetalInstance]| {
+            let highest = |scene: f64, metals: &[brillianteer_scene::MetalInstance]| {
                 metals.iter().flat_map(|m| m.vertices().map(|v| v.z * scene)).fold(0.0, f64::max)
             };
             let was = highest(assembly.scene.unit_mm, &assembly.scene.metals);

@@ -1,7 +1,7 @@
 //! The requests that save designs, and the stamps by which changes of their files are noticed.
 
-use crate::scene::Specimen;
 use brillianteer_cut::Design;
+use brillianteer_scene::Specimen;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;

@@ -3,8 +3,8 @@
 
 use super::document::Document;
 use super::framing_fit::{CENTRED, FramingFit, OUTGROWN, SHRUNK, SLACK};
-use crate::scene::{Companions, Pose, Projection, Specimen, View};
 use brillianteer_math::Ball;
+use brillianteer_scene::{Companions, Pose, Projection, Specimen, View};
 use glam::DVec3;
 use std::sync::Arc;
 

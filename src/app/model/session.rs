@@ -25,7 +25,7 @@ use crate::app::studio::{Order, ShotLight};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::picture::liquid_glass::LightFrom;
-use crate::scene::RingPlan;
+use brillianteer_scene::RingPlan;
 use glam::DVec2;
 use std::path::PathBuf;
 

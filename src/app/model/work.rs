@@ -2,8 +2,8 @@
 
 use super::render_settings::RenderSettings;
 use crate::io::mesh_options::MeshOptions;
-use crate::scene::{Companions, Copies};
 use brillianteer_cut::Design;
+use brillianteer_scene::{Companions, Copies};
 use std::path::PathBuf;
 use std::sync::Arc;
 

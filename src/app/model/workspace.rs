@@ -4,7 +4,7 @@ use super::cutting::CuttingProgress;
 use crate::app::model::eye::Eye;
 use crate::app::shows::Shows;
 use crate::picture::Overlay;
-use crate::scene::{Glare, Projection, View};
+use brillianteer_scene::{Glare, Projection, View};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -290,7 +290,7 @@ mod tests {
     #[test]
     fn a_desk_is_kept_as_text_and_an_old_one_is_completed() {
         let mut workspace = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
-        workspace.eye.spin(crate::scene::Side::Table, 0.5);
+        workspace.eye.spin(brillianteer_scene::Side::Table, 0.5);
         workspace.remember(Path::new("/a/b.toml"));
         let text = serde_json::to_string(&workspace).unwrap();
         assert_eq!(serde_json::from_str::<Workspace>(&text).unwrap(), workspace);
@@ -324,7 +324,7 @@ mod tests {
         workspace.toggle_overlay("facets");
         (workspace.distance, workspace.panes[1].is_near, workspace.panes[2].own) =
             (3.0, true, Some(workspace.eye));
-        workspace.eye.spin(crate::scene::Side::Table, 0.5);
+        workspace.eye.spin(brillianteer_scene::Side::Table, 0.5);
         workspace.begin_views();
         assert_eq!(workspace, before);
         // Workspaces of earlier versions do not say what a view showed before.

@@ -13,7 +13,7 @@ use crate::app::model::workspace::Workspace;
 use crate::app::panels::rows::{ANY, ChoiceRow, NUMBER, Row, control_width, field_width, named, skip_name};
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
-use crate::scene::{MOST_COPIES, Movement, has_wave};
+use brillianteer_scene::{MOST_COPIES, Movement, has_wave};
 use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
 

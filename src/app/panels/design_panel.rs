@@ -10,9 +10,9 @@ use crate::app::panels::row_focus;
 use crate::app::panels::rows::{ANY, FilledRow, Row, explain, field_width, named, wrong};
 use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
-use crate::scene::{Copies, SpecimenError};
 use brillianteer_cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use brillianteer_math::fixed;
+use brillianteer_scene::{Copies, SpecimenError};
 use egui::{
     Button, Panel, Rect, RichText, Role, ScrollArea, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };

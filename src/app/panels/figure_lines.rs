@@ -5,7 +5,7 @@ use crate::app::model::workspace::Workspace;
 use crate::app::studio::Grade;
 use crate::measure::Figures;
 use crate::picture::Scoped;
-use crate::scene::{Glare, Scope};
+use brillianteer_scene::{Glare, Scope};
 
 /// A figure that the panel shows.
 #[derive(Debug)]
@@ -216,10 +216,10 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::studio::FiguresOrder;
     use crate::measure::by_beams;
-    use crate::scene::View;
     use crate::trace::beam;
     use brillianteer_base::unwatched;
     use brillianteer_optics::line;
+    use brillianteer_scene::View;
     use std::sync::Arc;
 
     /// Returns the figures of the first stone, with a share of the light left unresolved.

@@ -5,8 +5,8 @@ use crate::app::model::eye::Eye;
 use crate::app::model::figures::ShownFigures;
 use crate::app::panels::figure_lines::{Counting, FigureLine, energy, lines, zones};
 use crate::app::studio::{Grade, Tilts, Which};
-use crate::scene::Glare;
 use brillianteer_math::{fixed, signed};
+use brillianteer_scene::Glare;
 use std::fmt::Write as _;
 
 /// Returns the figures of the design compared with.
@@ -145,9 +145,9 @@ mod tests {
     use super::*;
     use crate::app::panels::figure_lines::{TOTALS, ZONES};
     use crate::measure::by_beams;
-    use crate::scene::{ASET_CONE, Backing, Scope, View};
     use crate::trace::beam;
     use brillianteer_base::unwatched;
+    use brillianteer_scene::{ASET_CONE, Backing, Scope, View};
 
     fn line(name: &str, share: f64, other: Option<f64>) -> FigureLine {
         let figure = ZONES.iter().chain(&TOTALS).find(|figure| figure.name == name).unwrap();

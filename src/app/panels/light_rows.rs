@@ -10,7 +10,7 @@ use crate::app::studio::BEHIND;
 use crate::io::background::BackgroundRef;
 use crate::picture::{Background, light_picture};
 use crate::render::USUAL_BOUNCES;
-use crate::scene::{LIGHTS, light};
+use brillianteer_scene::{LIGHTS, light};
 use egui::{Button, ColorImage, Id, Image, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use std::borrow::Cow;
 use std::ops::RangeInclusive;

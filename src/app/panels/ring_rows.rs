@@ -3,7 +3,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::panels::rows::{ChoiceRow, Row, wrong};
-use crate::scene::{OuterShape, RING_NUMBERS, Ring, RingNumber, RingStyle};
+use brillianteer_scene::{OuterShape, RING_NUMBERS, Ring, RingNumber, RingStyle};
 use egui::{CollapsingHeader, Ui};
 
 /// How the panel shows a number of a ring.

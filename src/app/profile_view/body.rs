@@ -5,8 +5,8 @@ use super::sight::ProfileProjection;
 use crate::app::polygons::{closed_line, fill};
 use crate::app::theme::FOUND;
 use crate::picture::DrawnMarks;
-use crate::scene::Stone;
 use brillianteer_math::{Basis, Facet, hull};
+use brillianteer_scene::Stone;
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 
 /// A facet is edge on where the cosine between its normal and the direction to the eye is at most this, which is the

@@ -256,8 +256,8 @@ mod tests {
     use super::*;
     use crate::picture::profile::brilliant::BRILLIANT_BASIS;
     use crate::random;
-    use crate::scene::Stone;
     use brillianteer_cut::{Crown, RoundBrilliant, TOLKOWSKY};
+    use brillianteer_scene::Stone;
     use proptest::prelude::*;
 
     fn measure(text: &str) -> Vec2 {

@@ -2,8 +2,8 @@
 
 use super::ProfileView;
 use crate::picture::DrawnMarks;
-use crate::scene::Stone;
 use brillianteer_cut::{Cut, Pavilion, ProfileHandle, RoundBrilliant, TOLKOWSKY};
+use brillianteer_scene::Stone;
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -5,8 +5,8 @@ use crate::app::urgency;
 use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::PATTERN_SIDE;
-use crate::scene::Mipmap;
 use brillianteer_base::{Watch, unwatched};
+use brillianteer_scene::Mipmap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -175,7 +175,7 @@ impl Backgrounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::World;
+    use brillianteer_scene::World;
 
     /// Returns backgrounds whose fine pictures are drawn quickly.
     fn small() -> Backgrounds {

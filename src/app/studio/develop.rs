@@ -4,8 +4,8 @@ use super::order::{Shot, Smoothing, TakenPicture};
 use crate::io::background::BackgroundRef;
 use crate::io::refraction::code_of;
 use crate::picture::{Background, Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
-use crate::scene::Film;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_scene::Film;
 use egui::ColorImage;
 use std::sync::Arc;
 

@@ -10,10 +10,10 @@ use crate::render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,
 };
-use crate::scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use crate::trace::ray::RayOptions;
 use brillianteer_optics::line;
+use brillianteer_scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
 use glam::DVec2;
 use std::sync::Arc;
 

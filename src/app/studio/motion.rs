@@ -3,10 +3,10 @@
 use super::order::{Shot, Slot};
 use crate::io::background::BackgroundRef;
 use crate::picture::{Linear, MotionVector, TemporalHistory};
-use crate::scene::{Body, Companions, Film, Pose, Specimen, View};
 use crate::trace::ray;
 use crate::trace::sampling::LitScene;
 use brillianteer_cut::{Cut, Glass};
+use brillianteer_scene::{Body, Companions, Film, Pose, Specimen, View};
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -137,8 +137,8 @@ mod tests {
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::io::lighting::Lighting;
-    use crate::scene::{Copies, Glare, Projection};
     use crate::trace::environment::backplate_point;
+    use brillianteer_scene::{Copies, Glare, Projection};
 
     const SLOT: Slot = (0, Which::Present);
 

@@ -149,9 +149,9 @@ mod tests {
     use crate::io::lighting::Lighting;
     use crate::picture::{Background, Bloom, Develop, develop, fxaa};
     use crate::render::{Quality, Steps};
-    use crate::scene::{Companions, Glare, Pose, Projection, View};
     use crate::trace::gpu::Gpu;
     use brillianteer_base::unwatched;
+    use brillianteer_scene::{Companions, Glare, Pose, Projection, View};
     use glam::DVec2;
     use std::ops::ControlFlow;
     use std::path::Path;

@@ -4,10 +4,10 @@ use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
 use crate::app::model::work::ReadMesh;
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::io::{WriteError, cut_file, design_file, write};
-use crate::scene::{Copies, MOST_STONES};
 use brillianteer_cut::from_mesh::{Evening, Up};
 use brillianteer_cut::{Cut, Design};
 use brillianteer_math::Plane;
+use brillianteer_scene::{Copies, MOST_STONES};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -307,7 +307,7 @@ mod tests {
                 .unwrap();
         let first = Document::first().unwrap().work.design;
         let heart = Design { cut: Cut::Mesh(brillianteer_cut::MeshShape(Arc::new(solid))), ..first };
-        let specimen = crate::scene::Specimen::new(heart).unwrap();
+        let specimen = brillianteer_scene::Specimen::new(heart).unwrap();
         design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {
             let options = MeshOptions {

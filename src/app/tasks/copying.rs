@@ -6,7 +6,7 @@ use crate::app::studio::{FINE, ShotTracer, Which};
 use crate::io::Failure;
 use crate::io::rasterize;
 use crate::picture::profile;
-use crate::scene::Specimen;
+use brillianteer_scene::Specimen;
 use egui::ColorImage;
 use std::ops::ControlFlow;
 
@@ -51,8 +51,8 @@ mod tests {
     use crate::app::model::ordering::Orders;
     use crate::app::model::workspace::Workspace;
     use crate::app::studio::{Paper, Shot};
-    use crate::scene::{Projection, View};
     use brillianteer_base::unwatched;
+    use brillianteer_scene::{Projection, View};
 
     #[test]
     fn a_copied_render_by_rays_has_the_pixels_of_an_exported_one() {

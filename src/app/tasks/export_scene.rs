@@ -8,7 +8,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::mesh::write_shaded;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, RingEntry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
-use crate::scene::{Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen};
+use brillianteer_scene::{Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

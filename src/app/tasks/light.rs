@@ -3,7 +3,7 @@
 use crate::app::model::fitting::{LightRequest, StoneLight};
 use crate::io::Failure;
 use crate::render::{MeasureError, MeasureOptions, measure};
-use crate::scene::Specimen;
+use brillianteer_scene::Specimen;
 
 /// Measures the stones one after the other.
 ///

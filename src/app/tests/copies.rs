@@ -15,7 +15,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Smoothing, Which, hung};
 use crate::app::tasks::export_scene::SceneOut;
 use crate::render::{Quality, Steps};
-use crate::scene::{Copies, Mipmap, Panorama, Pose};
+use brillianteer_scene::{Copies, Mipmap, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
@@ -31,7 +31,7 @@ pub(super) fn bench(scene: &str) -> Bench {
     bench
 }
 
-fn poses(editor: &Editor) -> Vec<crate::scene::Pose> {
+fn poses(editor: &Editor) -> Vec<brillianteer_scene::Pose> {
     editor.model.document.work.copies.poses.clone()
 }
 
@@ -155,7 +155,7 @@ fn plates_tumble_and_wave_or_do_what_their_row_says() {
     (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
     SceneOut::of(&plan).write().unwrap();
     let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();
-    assert_eq!(again.copies.movement, crate::scene::Movement::Wave);
+    assert_eq!(again.copies.movement, brillianteer_scene::Movement::Wave);
     // What has no wave has no such row.
     bench.click("Rotating cube");
     bench.harness.run_steps(3);

@@ -4,8 +4,8 @@
 use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::{Action, update};
-use crate::scene::Side;
 use brillianteer_cut::{Crown, Tier, TierChange};
+use brillianteer_scene::Side;
 use glam::DVec2;
 
 /// Number of changes, one for each frame of a screen of 60 Hz.

@@ -3,9 +3,9 @@
 use super::tiers::{reach, tiers, type_text};
 use super::*;
 use crate::io::design_file;
-use crate::scene::Specimen;
 use brillianteer_cut::{FindingKind, Outline};
 use brillianteer_math::Plane;
+use brillianteer_scene::Specimen;
 use egui::Role;
 
 /// The place of a tier: a distance in half widths of the stone, or a meet in words.

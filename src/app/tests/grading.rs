@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::app::model::dialog::Dialog;
-use crate::scene::Glare;
+use brillianteer_scene::Glare;
 use egui_kittest::kittest::NodeT;
 
 /// Returns the share that a row of the figures shows, in percent.

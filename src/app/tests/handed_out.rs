@@ -6,8 +6,8 @@ use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_rgba_png};
-use crate::scene::Specimen;
 use brillianteer_cut::Design;
+use brillianteer_scene::Specimen;
 use egui::OutputCommand;
 use egui_kittest::kittest::NodeT;
 use std::path::Path;
@@ -210,7 +210,7 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     write_rgba_png(&at("photo.png"), &grey, (8, 4), "grey").unwrap();
     std::fs::write(
         at("lamp.toml"),
-        crate::io::light_file::text(&crate::scene::light("ring").unwrap()).unwrap(),
+        crate::io::light_file::text(&brillianteer_scene::light("ring").unwrap()).unwrap(),
     )
     .unwrap();
     let mut hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();

@@ -7,8 +7,8 @@ use crate::app::model::document::Document;
 use crate::app::model::opening::{FileRequest, Opening, OpeningPurpose};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
-use crate::scene::Specimen;
 use brillianteer_cut::from_mesh::{Evening, Up};
+use brillianteer_scene::Specimen;
 use glam::DVec3;
 use std::path::Path;
 

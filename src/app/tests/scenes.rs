@@ -16,7 +16,7 @@ use crate::app::model::workspace::Workspace;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::app::tasks::export_scene::SceneOut;
-use crate::scene::MetalInstance;
+use brillianteer_scene::MetalInstance;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 use glam::DVec3;

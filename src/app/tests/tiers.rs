@@ -314,8 +314,9 @@ fn a_tier_that_is_named_anew_keeps_its_meets_and_another_gear_moves_no_facet() {
     bench.settle();
     assert_eq!(tiers(&bench).gear, -80);
     let again = Arc::clone(bench.editor().model.document.specimen());
-    let planes =
-        |specimen: &crate::scene::Specimen| specimen.stone().unwrap().polytope.planes().collect::<Vec<_>>();
+    let planes = |specimen: &brillianteer_scene::Specimen| {
+        specimen.stone().unwrap().polytope.planes().collect::<Vec<_>>()
+    };
     for (now, then) in planes(&again).iter().zip(&planes(&stone)) {
         assert!((now.normal - then.normal).length() < 1e-9 && (now.offset - then.offset).abs() < 1e-9);
     }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::app::model::workspace::Pane;
 use crate::app::views::modes::Mode;
-use crate::scene::{LIGHTS, Projection};
+use brillianteer_scene::{LIGHTS, Projection};
 use egui::{Key, Modifiers, PointerButton, Role};
 
 /// Opens a wide window with one view.

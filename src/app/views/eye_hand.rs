@@ -3,7 +3,7 @@
 use super::pane_view::PaneView;
 use crate::app::arrows;
 use crate::app::model::eye::Eye;
-use crate::scene::Side;
+use brillianteer_scene::Side;
 use egui::{Key, Modifiers, PointerButton, Response, Ui};
 use glam::DVec2;
 

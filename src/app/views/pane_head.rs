@@ -8,7 +8,7 @@ use crate::app::model::action::ViewAction;
 use crate::app::shows::Shows;
 use crate::app::studio::{Grade, Shot, Which};
 use crate::app::theme;
-use crate::scene::Glare;
+use brillianteer_scene::Glare;
 use egui::{Align, ComboBox, Layout, RichText, Role, Ui, WidgetInfo};
 
 /// The width of the choice of the picture where the view is narrow, points.

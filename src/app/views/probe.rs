@@ -1,9 +1,9 @@
 //! Finds the facet under the pointer, and the direction that its light comes from.
 
-use crate::scene::{Film, Pose, Scope, Specimen, View, elevation_deg};
 use crate::trace::ray::{Camera, Path, RayOptions, StoneTracer};
 use brillianteer_cut::tier_stem;
 use brillianteer_optics::line;
+use brillianteer_scene::{Film, Pose, Scope, Specimen, View, elevation_deg};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -172,7 +172,7 @@ impl ProbeHit {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
-    use crate::scene::{ASET_CONE, Backing};
+    use brillianteer_scene::{ASET_CONE, Backing};
 
     #[test]
     fn the_table_is_found_in_the_middle_and_a_bezel_beside_it() {
@@ -209,8 +209,10 @@ mod tests {
         };
         let copies = [turned, Pose { at: DVec3::new(-1.5, 0.0, 0.0), ..Pose::STILL }, Pose::STILL];
         let film = Film::square(200, 3.0);
-        let perspective =
-            View { projection: crate::scene::Projection::Perspective { distance: 9.0 }, ..View::default() };
+        let perspective = View {
+            projection: brillianteer_scene::Projection::Perspective { distance: 9.0 },
+            ..View::default()
+        };
         for view in [View::default(), perspective] {
             let found = |place: DVec3| {
                 let at = Camera::reaching(&view, 1.0).project(place).unwrap().0;

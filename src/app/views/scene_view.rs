@@ -10,8 +10,8 @@ use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::app::theme::FOUND;
 use crate::picture::Scoped;
-use crate::scene::Scope;
 use brillianteer_cut::Cut;
+use brillianteer_scene::Scope;
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
 };

@@ -6,8 +6,8 @@ use crate::io::export::Event;
 use crate::io::{Failure, StoredLight};
 use crate::picture::{Linear, TemporalHistory, motion_of_view};
 use crate::render::{Job, LightProduct, Output, Partial, Product, Rendered, Steps};
-use crate::scene::View;
 use brillianteer_base::Watch;
+use brillianteer_scene::View;
 
 /// The default number of samples of a picture. Where the newest has a share of one half, the oldest samples then
 /// count for less than a thousandth.

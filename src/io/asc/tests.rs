@@ -1,8 +1,8 @@
 use super::*;
 use crate::io::cut_file;
 use crate::io::design_file::EncodedDesign;
-use crate::scene::Specimen;
 use brillianteer_cut::{Cut, MaterialRef};
+use brillianteer_scene::Specimen;
 use proptest::prelude::*;
 
 #[test]

@@ -3,8 +3,8 @@
 use super::is_padding;
 use crate::io::cutters;
 use crate::io::design_file::EncodedDesign;
-use crate::scene::Specimen;
 use brillianteer_cut::{Tier, Tiers, is_printable, with_finish};
+use brillianteer_scene::Specimen;
 use encoding_rs::WINDOWS_1252;
 use std::fmt::Write;
 

@@ -2,8 +2,8 @@
 
 use super::Assembly;
 use crate::io::Failure;
-use crate::scene::{Copies, Instance, Movement, Pose};
 use brillianteer_cut::Design;
+use brillianteer_scene::{Copies, Instance, Movement, Pose};
 use std::sync::Arc;
 
 impl Assembly {

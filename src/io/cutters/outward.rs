@@ -1,12 +1,12 @@
 //! Prepares designs for cutters' files: as tiers, with their outlines, and with messages about what such files cannot hold.
 
 use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
-use crate::scene::{Specimen, SpecimenError};
 use brillianteer_cut::{
     Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, TierZone, Tiers, tier_stem,
 };
 use brillianteer_math::{Basis, Plane, Polytope, Symmetry};
 use brillianteer_optics::line;
+use brillianteer_scene::{Specimen, SpecimenError};
 use glam::DVec3;
 use std::borrow::Cow;
 

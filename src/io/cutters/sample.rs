@@ -1,8 +1,8 @@
 //! A design that uses everything that both `.gem` and `.gcs` can hold, for their tests.
 
-use crate::scene::Specimen;
 use brillianteer_cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers};
 use brillianteer_math::Pose;
+use brillianteer_scene::Specimen;
 use std::collections::BTreeMap;
 
 fn tier(angle: f64, distance: f64, indices: &[f64], name: &str, instructions: &str) -> Tier {

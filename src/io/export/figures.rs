@@ -6,8 +6,8 @@ use crate::io::Failure;
 use crate::measure::{Bounds, Estimate, Measured, UNRESOLVED};
 use crate::picture::Scoped;
 use crate::render::{Backend, FiguresProduct, Product, Renderer};
-use crate::scene::{Film, Glare, Lean, Projection, Viewpoint};
 use brillianteer_base::Watch;
+use brillianteer_scene::{Film, Glare, Lean, Projection, Viewpoint};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 

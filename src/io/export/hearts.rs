@@ -3,8 +3,8 @@
 use super::viewing::Viewing;
 use crate::io::Failure;
 use crate::measure::{ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows};
-use crate::scene::VIEWER_CONES_DEG;
 use brillianteer_base::Watch;
+use brillianteer_scene::VIEWER_CONES_DEG;
 use serde_json::{Value, json};
 
 /// The default part of the light that may stay unresolved in hearts and arrows.

@@ -9,9 +9,9 @@ use crate::measure::{
     hemisphere_return,
 };
 use crate::render::{MeasuresProduct, Product, Renderer};
-use crate::scene::{DomeLight, Film};
 use brillianteer_base::Watch;
 use brillianteer_optics::line;
+use brillianteer_scene::{DomeLight, Film};
 use serde_json::{Map, Value, json};
 
 /// The default part of the light that may stay unresolved in measures.

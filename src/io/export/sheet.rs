@@ -5,8 +5,8 @@ use super::{OutputFormat, Outputs};
 use crate::io::{Failure, PngFile, rasterize};
 use crate::picture::{Caption, Palette, Rows};
 use crate::render::{Backend, Job, Product, Reading, ScopeProduct};
-use crate::scene::{Glare, Scope};
 use brillianteer_math::rounded;
+use brillianteer_scene::{Glare, Scope};
 use std::path::PathBuf;
 
 /// The share of the light that pictures leave unresolved where no bound is given: less than a step of eight bits.

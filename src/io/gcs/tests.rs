@@ -314,7 +314,7 @@ proptest! {
             bytes[(at * length) as usize] = byte;
         }
         for bytes in [&bytes[..], &bytes[..(cut * length) as usize]] {
-            if let Ok(ImportedDesign { design, .. }) = read(bytes, "x") && let Ok(specimen) = crate::scene::Specimen::new(design) {
+            if let Ok(ImportedDesign { design, .. }) = read(bytes, "x") && let Ok(specimen) = brillianteer_scene::Specimen::new(design) {
                 let _ = write(&specimen);
             }
         }
@@ -348,7 +348,7 @@ fn frosting_is_read_from_facets_tiers_and_instructions_and_written_back() {
     for text in [&facet, &said, &polished] {
         let first = specimen(back(text.as_bytes()).design);
         let again = specimen(back(&write(&first).bytes).design);
-        let of = |specimen: &crate::scene::Specimen| {
+        let of = |specimen: &brillianteer_scene::Specimen| {
             let facets = specimen.stone().unwrap().polytope.facets().iter();
             facets.map(|facet| facet.frosting).collect::<Vec<_>>()
         };

@@ -3,9 +3,9 @@
 use super::{COLOUR, RENDER, ROOT, VERSION};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
-use crate::scene::Specimen;
 use brillianteer_cut::{FinishNote, Indexed, Tier, Tiers};
 use brillianteer_math::{Plane, span};
+use brillianteer_scene::Specimen;
 use glam::DVec3;
 
 /// A stone whose reach and height differ from those of the format by less than this is not scaled, so that it keeps

@@ -199,7 +199,7 @@ proptest! {
         }
         let _ = looks_like(&bytes);
         for bytes in [&bytes[..], &bytes[..(cut * length) as usize]] {
-            if let Ok(ImportedDesign { design, .. }) = read(bytes, "x") && let Ok(specimen) = crate::scene::Specimen::new(design) {
+            if let Ok(ImportedDesign { design, .. }) = read(bytes, "x") && let Ok(specimen) = brillianteer_scene::Specimen::new(design) {
                 prop_assert!(read(&write(&specimen).bytes, "x").is_ok());
             }
         }

@@ -3,8 +3,8 @@
 use super::{END, LINES, UNKNOWN};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
-use crate::scene::Specimen;
 use brillianteer_cut::{Tier, Tiers, with_finish};
+use brillianteer_scene::Specimen;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 

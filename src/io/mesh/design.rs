@@ -382,8 +382,8 @@ fn told_of(mended: &Mended) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::io::{cut_file, library, write_obj, write_stl};
-    use crate::scene::Specimen;
     use brillianteer_math::Plane;
+    use brillianteer_scene::Specimen;
 
     /// The diamond that most demos load: every corner is one of its hull, and its kites are bent over the wrong diagonal.
     #[test]

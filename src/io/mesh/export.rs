@@ -8,9 +8,9 @@
 mod ply;
 
 use super::file::{MaterialHint, STL_HEADER, Statement};
-use crate::scene::Body;
 use brillianteer_cut::MaterialRef;
 use brillianteer_math::{Surface, rounded, triangulate};
+use brillianteer_scene::Body;
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::borrow::Cow;

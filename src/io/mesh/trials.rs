@@ -1,8 +1,8 @@
 //! Small files that other programs write and that this one once refused or misread.
 
 use crate::io::design_file::{self, ImportedDesign};
-use crate::scene::Specimen;
 use brillianteer_cut::Cut;
+use brillianteer_scene::Specimen;
 use std::path::PathBuf;
 
 /// The files of the round stone of 25 facets, each with a part of its notes and warnings; empty where it has no warning.

@@ -3,8 +3,8 @@
 
 use super::exr_layer::{ColourLayer, Colours, OfPart};
 use super::shared::{Raw, check_size, damaged, warn_of_primaries};
-use crate::scene::Panorama;
 use brillianteer_base::Fault;
+use brillianteer_scene::Panorama;
 use exr::math::Vec2;
 use exr::meta::MetaData;
 use exr::meta::header::Header;

@@ -5,9 +5,9 @@
 
 use super::raster::{decoder_limits, light};
 use super::shared::{Raw, SAME_PLACE, check_size, damaged, warn_of_primaries};
-use crate::scene::Panorama;
 use brillianteer_base::Fault;
 use brillianteer_optics::SRGB_FROM_XYZ;
+use brillianteer_scene::Panorama;
 use glam::{DMat3, DVec3};
 use image::codecs::hdr::HdrDecoder;
 use image::{DynamicImage, ImageDecoder};

@@ -1,9 +1,9 @@
 //! Reads PNG and JPEG.
 
 use super::shared::{LARGEST, Raw, check_size, damaged};
-use crate::scene::Panorama;
 use brillianteer_base::Fault;
 use brillianteer_optics::linear_from_encoded;
+use brillianteer_scene::Panorama;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use std::fs::File;
 use std::io::BufReader;

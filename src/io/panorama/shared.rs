@@ -1,8 +1,8 @@
 //! What the readers of all formats of pictures share: limits, faults and warnings.
 
 use crate::io::undecoded::Undecoded;
-use crate::scene::Panorama;
 use brillianteer_base::Fault;
+use brillianteer_scene::Panorama;
 
 /// The width and the height of the largest picture that is read, in pixels.
 pub const LARGEST: (u32, u32) = (16_384, 8192);

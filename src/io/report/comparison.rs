@@ -7,8 +7,8 @@ use super::{ReportOrigin, provenance};
 use crate::io::Failure;
 use crate::measure::{Interval, MeasureName, measure_words};
 use crate::picture::{FigureRow, Report, ReportCell, ReportFigure, ReportPart, ReportTable, TextFlow};
-use crate::scene::DomeLight;
 use brillianteer_math::fixed;
+use brillianteer_scene::DomeLight;
 use std::cmp::Ordering;
 
 /// The greatest height of pictures in scopes, as a part of the width of the text.

@@ -1,7 +1,7 @@
 //! The fingerprint of a stone's geometry: the same for the same stone, whatever file it comes from.
 
-use crate::scene::Body;
 use brillianteer_math::{Facet, Polytope, TriangleMesh};
+use brillianteer_scene::Body;
 use glam::DVec3;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -90,9 +90,9 @@ fn triangles(mesh: &TriangleMesh) -> String {
 mod tests {
     use super::*;
     use crate::io::{asc, cut_file, library};
-    use crate::scene::{Specimen, Stone};
     use brillianteer_cut::{Crown, RoundBrilliant, TOLKOWSKY};
     use brillianteer_math::Plane;
+    use brillianteer_scene::{Specimen, Stone};
     use std::sync::Arc;
 
     fn of(facets: &[(String, Plane)]) -> String {

@@ -10,12 +10,12 @@ use crate::picture::{
     named, profile,
 };
 use crate::render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
-use crate::scene::Scene;
 use ::png::{BitDepth, ColorType};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use brillianteer_base::Watch;
 use brillianteer_optics::linear_from_encoded;
+use brillianteer_scene::Scene;
 use std::sync::Arc;
 
 /// The bands of wavelengths of the picture under light.

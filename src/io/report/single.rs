@@ -6,8 +6,8 @@ use super::{ReportOrigin, figures, provenance};
 use crate::io::Failure;
 use crate::measure::MeasureName;
 use crate::picture::{FigureRow, Report, ReportFigure, ReportPart, ReportTable};
-use crate::scene::DomeLight;
 use brillianteer_cut::Cut;
+use brillianteer_scene::DomeLight;
 
 /// The greatest height of the pictures in scopes, as a part of the width of the text.
 const PICTURES: f64 = 0.24;

@@ -3,8 +3,8 @@ use crate::io::drawing_png::legible::assert_legible;
 use crate::io::{cut_file, library};
 use crate::measure::STANDARD_ERROR;
 use crate::render::{Card, Wanted};
-use crate::scene::{Specimen, Viewpoint};
 use brillianteer_base::unwatched;
+use brillianteer_scene::{Specimen, Viewpoint};
 
 fn specimen(text: &str) -> Specimen {
     Specimen::new(cut_file::parse(text, "test").unwrap()).unwrap()

@@ -6,9 +6,9 @@ use crate::io::plot::{PlotAxis, PlotCurve, PlotError, curves};
 use crate::measure::{LightMeasures, MeasureName, MeasureSettings};
 use crate::picture::EmbeddedDrawing;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
-use crate::scene::Viewpoint;
 use brillianteer_base::Watch;
 use brillianteer_optics::line;
+use brillianteer_scene::Viewpoint;
 
 /// The greatest tilt to either side, degrees, and the step from one tilt to the next.
 const MOST_TILT: i32 = 30;

@@ -1,9 +1,9 @@
 //! A ring in a scene file.
 
 use super::shared::{Angles, leaning};
-use crate::scene::{Pose, Ring};
 use brillianteer_cut::{MaterialRef, Size};
 use brillianteer_optics::Metal;
+use brillianteer_scene::{Pose, Ring};
 use glam::{DQuat, DVec3};
 
 /// A ring of the program's own making in a scene, with its stones.

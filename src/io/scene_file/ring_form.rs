@@ -5,8 +5,8 @@ use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::toml_text::line_at;
 use super::ring_entry::RingEntry;
 use super::shared::{SizeForm, likely, material, metal, place_mm, roughness, shown};
-use crate::scene::{OuterShape, Ring, RingStyle};
 use brillianteer_base::Fault;
+use brillianteer_scene::{OuterShape, Ring, RingStyle};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 

@@ -2,11 +2,11 @@
 
 use super::super::cut_file::material_form::{MaterialForm, path_of};
 use super::super::cut_file::values::{Numbers, OneOf, Pairs};
-use crate::scene::POLISHED;
 use brillianteer_base::Fault;
 use brillianteer_base::nearest;
 use brillianteer_cut::{MaterialRef, Size, SizeError};
 use brillianteer_optics::Metal;
+use brillianteer_scene::POLISHED;
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;

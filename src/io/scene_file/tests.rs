@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::io::library;
-use crate::scene::POLISHED;
 use brillianteer_optics::line::SODIUM_D;
+use brillianteer_scene::POLISHED;
 
 const TRILOGY: &str = "format = 1\nname = \"Three\"\nlight = \"studio\"\nlayout = \"row\"\ngap_mm = 0.6\n\
                        [[stone]]\ncut = \"modern-ideal\"\nmaterial = \"ruby\"\nsize = \"1ct\"\ncount = 2\n\
@@ -62,7 +62,7 @@ fn a_layout_and_places_read_as_written() {
     assert_eq!((scene.angle_of_view, scene.exposure), (Some(45.0), -0.5));
     assert_eq!((scene.light_turn, scene.light_upright), (30.0, true));
     let scene = parse(&behind.replace("Page", "City"), "x.toml", None).unwrap();
-    assert_eq!(scene.background, Some(BackgroundRef::World(crate::scene::World::City)));
+    assert_eq!(scene.background, Some(BackgroundRef::World(brillianteer_scene::World::City)));
     let world = with(PLACED, "[[stone]]", "light = \"room\"\n[[stone]]");
     assert_eq!(parse(&world, "x.toml", None).unwrap().light.unwrap(), std::path::Path::new("room"));
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";

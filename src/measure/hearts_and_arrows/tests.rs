@@ -1,9 +1,9 @@
 use super::*;
 use crate::measure::by_beams;
-use crate::scene::{Scope, VIEWER_CONES_DEG};
 use brillianteer_base::unwatched;
 use brillianteer_cut::{LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 use brillianteer_math::Plane;
+use brillianteer_scene::{Scope, VIEWER_CONES_DEG};
 use glam::DVec2;
 
 /// A change of a stone before it is measured.

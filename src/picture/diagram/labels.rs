@@ -5,8 +5,8 @@ use super::super::drawing::{
     Align, Frame, LeaderRoom, Sheet, Type, degrees, room_for, text_frame, text_width,
 };
 use super::{INDEX, NAME, SLOPE, Tier, View};
-use crate::scene::Stone;
 use brillianteer_math::centroid;
+use brillianteer_scene::Stone;
 use glam::DVec2;
 
 /// Places whose merits differ by less than this count as equally good, as mirror images do up to rounding; the first one

@@ -1,9 +1,9 @@
 //! Marks of an audit's findings in a facet diagram: amber outlines of facets, and rings around corners.
 
 use crate::picture::drawing::{DrawnAspect, Sheet};
-use crate::scene::Stone;
 use brillianteer_cut::Finding;
 use brillianteer_math::Facet;
+use brillianteer_scene::Stone;
 use glam::DVec3;
 
 /// Corners nearer to one another than this, girdle radii, are one.

@@ -2,8 +2,8 @@
 
 use super::super::drawing::Inks;
 use super::{LIST_LINE, NAME, View, tiers};
-use crate::scene::Stone;
 use brillianteer_math::Basis;
+use brillianteer_scene::Stone;
 use glam::DVec2;
 
 /// Gap between the two views, on a sheet and in a small diagram.

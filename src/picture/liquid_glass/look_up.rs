@@ -3,7 +3,7 @@
 use super::frost::{CLEAR, FIVE, FrostTap, THREE};
 use super::parts::RED_AND_BLUE;
 use super::prepared::PaneRow;
-use crate::scene::Panorama;
+use brillianteer_scene::Panorama;
 use glam::Vec4;
 use pulp::{Simd, WithSimd};
 

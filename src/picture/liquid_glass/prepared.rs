@@ -5,7 +5,7 @@ use super::lighting::{Brightness, Normals, SurfaceLight};
 use super::look_up::{LookThrough, planes};
 use super::{GlassPane, LightFrom, PaneQuality};
 use crate::picture::Linear;
-use crate::scene::Panorama;
+use brillianteer_scene::Panorama;
 use glam::{DVec2, DVec4};
 use pulp::Arch;
 use rayon::prelude::*;

@@ -5,9 +5,9 @@
 
 use super::super::drawing::{Align, DIMENSION};
 use super::{BESIDE, Dimensions, Drawing, GAP, LINE, Overflow, Span, degrees, percent};
-use crate::scene::Stone;
 use brillianteer_cut::{Derived, RoundBrilliant};
 use brillianteer_math::Basis;
+use brillianteer_scene::Stone;
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_8;
 use svg::Document;
@@ -157,8 +157,8 @@ impl Drawing<'_> {
 #[cfg(test)]
 mod tests {
     use crate::picture::profile;
-    use crate::scene::Stone;
     use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
+    use brillianteer_scene::Stone;
 
     fn svg(given: &RoundBrilliant) -> String {
         let stone = Stone::new(&given.facets().unwrap()).unwrap();

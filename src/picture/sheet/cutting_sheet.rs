@@ -1,9 +1,9 @@
 //! The content of a cutter's sheet, as plain data.
 
 use super::blocks::{SheetBlock, SheetRow, blocks, cleaned, is_between_teeth, tiers_of_planes};
-use crate::scene::{Specimen, Stone};
 use brillianteer_cut::{Cut, MaterialRef, SheetFigures, Tiers};
 use brillianteer_optics::{critical_angle, line};
+use brillianteer_scene::{Specimen, Stone};
 use serde::Serialize;
 
 /// The note about a design whose facets leave the stone open.

@@ -8,8 +8,8 @@ use super::cutting_sheet::CuttingSheet;
 use super::table::{Columns, LineGroup};
 use super::view::{SheetView, plan_half_height, profile_scale, profiles};
 use super::wrapping::words;
-use crate::scene::Stone;
 use brillianteer_math::Basis;
+use brillianteer_scene::Stone;
 use glam::DVec2;
 use svg::Document;
 

@@ -4,9 +4,9 @@ use super::super::drawing::{Align, DrawnAspect, Frame, Ink, LeaderRoom, Sheet, T
 use super::cutting_sheet::CuttingSheet;
 use super::index_ring::{IndexRing, LEADERS, OUTER};
 use super::naming::{Places, SeenTier, write_names};
-use crate::scene::Stone;
 use brillianteer_cut::TierZone;
 use brillianteer_math::{Basis, Facet, span};
+use brillianteer_scene::Stone;
 use glam::{DVec2, DVec3};
 
 /// Type of the captions of plans and profiles.

@@ -1,7 +1,7 @@
 //! Jobs of stones with frosted facets.
 
 use super::*;
-use crate::scene::{Body, Stone};
+use brillianteer_scene::{Body, Stone};
 
 /// Returns a scene of one stone whose table is frosted.
 fn frosted() -> Scene {

@@ -1,9 +1,9 @@
 //! Jobs with metal.
 
 use super::*;
-use crate::scene::MetalInstance;
 use brillianteer_math::{ShadedMesh, ShadedSurface};
 use brillianteer_optics::Metal;
+use brillianteer_scene::MetalInstance;
 
 #[test]
 fn metal_is_planned_to_a_card_where_there_is_one_else_to_rays_and_never_to_beams() {

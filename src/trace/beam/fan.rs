@@ -63,10 +63,10 @@ pub(super) fn leaving(rays: Pair, normal: DVec3, indices: [f64; 2]) -> [Option<D
 #[cfg(test)]
 mod tests {
     use super::super::{BeamOptions, grow::trace_bounces, trace};
-    use crate::scene::{Medium, View};
     use brillianteer_base::unwatched;
     use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::{Plane, Polytope};
+    use brillianteer_scene::{Medium, View};
     use glam::DVec3;
 
     #[test]

@@ -3,9 +3,9 @@
 use super::coherency::Coherency;
 use super::split::{BeamOutline, Facets, Landing, Ray, Splitter};
 use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, NO_EXIT, NewBeams, TreeSize};
-use crate::scene::Medium;
 use brillianteer_math::{Affine, integral_of_decay};
 use brillianteer_optics::{fresnel, reflect, refract};
+use brillianteer_scene::Medium;
 use glam::{DVec2, DVec3};
 
 /// Outlines with less than this share of the silhouette's area come from rounding and are dropped.

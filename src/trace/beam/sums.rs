@@ -2,7 +2,7 @@
 
 use super::cells::StrongestExit;
 use super::tree::Beams;
-use crate::scene::Scope;
+use brillianteer_scene::Scope;
 
 /// The light of beams as parts of the silhouette, by the bands of a scope.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! The result of tracing beams: a tree of nested outlines, each with the light that leaves at its end.
 
 use super::blocks::Blocks;
-use crate::scene::Medium;
 use brillianteer_math::{Affine, Basis, Symmetry};
+use brillianteer_scene::Medium;
 use glam::{DVec2, DVec3};
 
 /// The number that stands for the parent of a beam that has just entered.

@@ -1,9 +1,9 @@
 //! The photograph behind the bodies, on a plane perpendicular to the axis to the eye. The twins of this module are
 //! `src/trace/packet/backplate.rs` and `photo_at` in `shaders/environment.wgsl`.
 
-use crate::scene::{Film, Mipmap, View};
 use crate::trace::DispersedRay;
 use brillianteer_math::Basis;
+use brillianteer_scene::{Film, Mipmap, View};
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles as _};
 
 /// A ray counts as parallel to the backplate if the cosine between it and the axis to the eye is below this.

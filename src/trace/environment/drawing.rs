@@ -1,7 +1,7 @@
 //! The radiance of the parts of a light by direction, in the light's own frame.
 
-use crate::scene::{Dome, Light, Panorama, PanoramaRef, SoftBox, toward};
 use brillianteer_optics::linear_from_encoded;
+use brillianteer_scene::{Dome, Light, Panorama, PanoramaRef, SoftBox, toward};
 use glam::{DQuat, DVec3, DVec4, Vec4Swizzles as _};
 
 /// Returns a radiance of 1 by channel, of the key illuminant or of a colour in encoded sRGB.

@@ -89,7 +89,7 @@ both_sides! {
 }
 
 both_sides! {
-    /// The medium of a stone at one wavelength, as in [`crate::scene::Medium`].
+    /// The medium of a stone at one wavelength, as in [`brillianteer_scene::Medium`].
     Medium, MEDIUM_WGSL {
         /// The refractive index.
         index: f32,
@@ -272,7 +272,7 @@ pub(super) fn with(v: glam::DVec3, w: f64) -> [f32; 4] {
 
 impl Medium {
     /// Packs a medium for a shader whose unit of length is `unit` units of the body's frame.
-    pub(super) fn new(medium: &crate::scene::Medium, unit: f64) -> Self {
+    pub(super) fn new(medium: &brillianteer_scene::Medium, unit: f64) -> Self {
         let [absorption_o, absorption_e] = medium.absorption.map(|a| (a * unit) as f32);
         Self { index: medium.index as f32, spread: medium.spread as f32, absorption_o, absorption_e }
     }

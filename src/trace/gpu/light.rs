@@ -6,11 +6,11 @@ use super::limits::MOST_WAVELENGTHS;
 use super::metals::GpuMetals;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage, StripLayer};
-use crate::scene::{self, Film, Instance, MOST_LAMPS, Mipmap, Panorama};
 use crate::trace::environment::{Environment, HEAD_EDGE};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::PosedSolid;
+use brillianteer_scene::{Film, Instance, MOST_LAMPS, Mipmap, Panorama};
 use glam::DVec3;
 use std::ops::Range;
 use wgpu::util::DeviceExt;
@@ -98,7 +98,7 @@ impl<'a> ByCard<'a> {
 
     /// Writes the media of the stones, the finishes of metal and the colours of the bands to the card's memory.
     fn write_frame(&self, pass: &SamplePass) {
-        let of_stone = |(media, &unit): (&Vec<scene::Medium>, &f64)| -> Vec<[f32; 4]> {
+        let of_stone = |(media, &unit): (&Vec<brillianteer_scene::Medium>, &f64)| -> Vec<[f32; 4]> {
             media.iter().map(|medium| bytemuck::cast(gpu_types::Medium::new(medium, unit))).collect()
         };
         let finishes = self.metals.iter().flat_map(|metals| metals.finishes(&pass.metals));

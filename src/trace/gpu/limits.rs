@@ -1,6 +1,6 @@
 //! The limits of a graphics card for each kind of thing. The shaders are compiled with most of these numbers.
 
-use crate::scene::MOST_STONES;
+use brillianteer_scene::MOST_STONES;
 
 /// The most planes that fit into the uniform array, 16 KiB.
 pub(super) const MOST_UNIFORM: usize = 1024;

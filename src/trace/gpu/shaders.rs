@@ -6,10 +6,10 @@ use super::limits::{
     MOST_WAVELENGTHS,
 };
 use super::throttle::Throttle;
-use crate::scene::MOST_LAMPS;
 use crate::trace::environment::TEXEL_ANGLE;
 use crate::trace::sampling::MOST_WAITING;
 use brillianteer_optics::Roughness;
+use brillianteer_scene::MOST_LAMPS;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// The kinds of surface that shaders trace.

@@ -8,10 +8,10 @@ use super::limits::{MOST_BODIES, MOST_UNIFORM};
 use super::metals::{GpuMetals, meshes};
 use super::shaders::ShaderSurface;
 use super::triangles::GpuTriangles;
-use crate::scene::MetalInstance;
 use crate::trace::gpu::GpuError;
 use crate::trace::sampling::MOST_WAITING;
 use brillianteer_math::{Ball, ImplicitSurface, Plane, Pose, PosedSolid, ShadedMesh, SolidRef};
+use brillianteer_scene::MetalInstance;
 use bytemuck::Zeroable;
 use glam::DVec3;
 

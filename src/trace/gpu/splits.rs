@@ -5,7 +5,6 @@ use super::parity::card;
 use super::shaders::ShaderSurface;
 use super::throttle::Throttle;
 use super::{ByCard, Gpu, GpuEnvironment, ScopePixel};
-use crate::scene::{ASET_CONE, Backing, Film, Light, MetalInstance, Scene, Scope, Specimen, View};
 use crate::trace::ScopeShot;
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
@@ -14,6 +13,7 @@ use brillianteer_base::unwatched;
 use brillianteer_cut::{Design, Family, MaterialRef};
 use brillianteer_math::{ShadedMesh, ShadedSurface};
 use brillianteer_optics::{Illuminant, Metal, Strata};
+use brillianteer_scene::{ASET_CONE, Backing, Film, Light, MetalInstance, Scene, Scope, Specimen, View};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 //! `src/trace/environment/backplate.rs` and of `photo_at` in `shaders/environment.wgsl`.
 
 use super::lanes::{Lanes, MOST_LANES, Vectors};
-use crate::scene::Mipmap;
 use crate::trace::environment::{ALONG, Backplate, Environment};
+use brillianteer_scene::Mipmap;
 use glam::{Vec2, Vec3, Vec4};
 use pulp::Simd;
 

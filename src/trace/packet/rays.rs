@@ -2,7 +2,7 @@
 
 use super::lanes::{Lanes, Vectors};
 use super::optics::PacketLight;
-use crate::scene::Medium;
+use brillianteer_scene::Medium;
 use glam::Vec3;
 use pulp::Simd;
 

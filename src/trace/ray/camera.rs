@@ -1,8 +1,8 @@
 //! The camera of point rays.
 
-use crate::scene::{Projection, View};
 use crate::trace::DispersedRay;
 use brillianteer_math::{Basis, Plane, SolidRef};
+use brillianteer_scene::{Projection, View};
 use glam::{DVec2, DVec3};
 
 /// The camera of a view, which gives the ray that belongs to each point of the image plane.

@@ -2,9 +2,9 @@
 //! the light that leaves is carried back.
 
 use super::{Exit, Loss, MeetingRay, RayOptions, StoneTracer};
-use crate::scene::{Instance, Medium};
 use crate::trace::DispersedRay;
 use brillianteer_math::{Ball, Pose};
+use brillianteer_scene::{Instance, Medium};
 use glam::DVec3;
 
 /// The tracer of a stone's body, and the pose that carries the body into the world.

@@ -1,9 +1,9 @@
 //! Reflects rays at bodies of metal.
 
-use crate::scene::MetalInstance;
 use crate::trace::DispersedRay;
 use brillianteer_math::{Ball, Pose, ShadedMesh, SurfaceNormals};
 use brillianteer_optics::{RoughMetal, Roughness};
+use brillianteer_scene::MetalInstance;
 use glam::DVec3;
 use num_complex::Complex64;
 use std::f64::consts::PI;

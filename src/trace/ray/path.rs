@@ -148,9 +148,9 @@ impl StoneTracer {
 mod tests {
     use super::*;
     use crate::random::proportions;
-    use crate::scene::{Medium, View};
     use crate::trace::ray::{Camera, RayOptions};
     use brillianteer_math::{Plane, Polytope};
+    use brillianteer_scene::{Medium, View};
     use glam::DVec2;
     use proptest::prelude::*;
 

@@ -64,7 +64,7 @@ fn every_cut_that_comes_with_the_program_offers_two_axes_or_has_nothing_to_vary(
 fn a_side_and_the_tier_by_which_its_scale_is_told_make_no_map() {
     let mut design = design("tolkowsky");
     design.cut =
-        Cut::Tiers(crate::io::as_tiers(&crate::scene::Specimen::new(design.clone()).unwrap()).unwrap());
+        Cut::Tiers(crate::io::as_tiers(&brillianteer_scene::Specimen::new(design.clone()).unwrap()).unwrap());
     let all = MapAxis::all(&design.cut);
     let of = |key: &str| all.iter().find(|axis| axis.key == SweepKey::of(key)).unwrap();
     let told = design.cut.tier_of_side(ScaledSide::Crown).unwrap();

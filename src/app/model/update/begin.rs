@@ -11,7 +11,7 @@ use crate::app::model::task::Task;
 use crate::app::model::view_history::{ViewHistory, ViewState};
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
-use crate::scene::Companions;
+use brillianteer_scene::Companions;
 
 /// How a document takes the place of the one before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

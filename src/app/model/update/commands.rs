@@ -15,8 +15,8 @@ use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::work::Work;
 use crate::app::model::workspace::PaneLayout;
 use crate::picture::DrawnMarks;
-use crate::scene::{LIGHTS, scattered};
 use brillianteer_cut::Cut;
+use brillianteer_scene::{LIGHTS, scattered};
 
 impl Model {
     /// Returns whether a command can be carried out now.

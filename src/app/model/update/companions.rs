@@ -3,7 +3,7 @@
 use crate::app::model::Model;
 use crate::app::model::document::Document;
 use crate::app::model::work::Work;
-use crate::scene::{Companion, Companions, Copies, Instance, Pose, overlapping};
+use brillianteer_scene::{Companion, Companions, Copies, Instance, Pose, overlapping};
 use std::sync::Arc;
 
 /// A stone to be moved, by its number among copies or companions.

@@ -6,8 +6,8 @@ use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
 use crate::io::as_tiers;
-use crate::scene::{Copies, Pose};
 use brillianteer_cut::{Cut, Design, ScaledSide, SolvedTiers, TierChange, TierOutcome, scaled};
+use brillianteer_scene::{Copies, Pose};
 use glam::DVec3;
 use std::sync::Arc;
 

@@ -9,8 +9,8 @@ use crate::app::model::session::RingMaking;
 use crate::app::model::task::Task;
 use crate::app::model::work::Work;
 use crate::io::Failure;
-use crate::scene::{Companion, Pose, Ring, RingMetal, RingPlan, SeatKind, Specimen};
 use brillianteer_cut::Design;
+use brillianteer_scene::{Companion, Pose, Ring, RingMetal, RingPlan, SeatKind, Specimen};
 use std::sync::Arc;
 
 /// Orders metal where that of the ring was made of other numbers or stones than the present ones, unless some is being made

@@ -5,7 +5,7 @@ use crate::app::model::action::ViewAction;
 use crate::app::model::task::{CopyOriginal, CopyRequest, Task};
 use crate::app::shows::Shows;
 use crate::app::studio::{Paper, Shot, Which};
-use crate::scene::Film;
+use brillianteer_scene::Film;
 
 /// Carries out a change of the views.
 pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {

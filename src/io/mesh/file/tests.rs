@@ -13,11 +13,11 @@ use super::statement::Measures;
 use super::*;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
-use crate::scene::{Body, Specimen, Stone};
 use brillianteer_cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
 use brillianteer_cut::{Cut, Design, MaterialRef};
 use brillianteer_math::Plane;
 use brillianteer_math::faceting::{Faceted, SurfaceKind, facets};
+use brillianteer_scene::{Body, Specimen, Stone};
 use glam::{DQuat, DVec3};
 
 fn brilliant(girdle_facets: u32) -> Stone {

@@ -3,10 +3,10 @@
 use crate::io::design_file::ImportedDesign;
 use crate::io::mesh::read;
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart};
-use crate::scene::Specimen;
 use crate::solids::{Triangles, extruded};
 use brillianteer_base::FileError;
 use brillianteer_cut::Cut;
+use brillianteer_scene::Specimen;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::path::Path;

@@ -101,9 +101,9 @@ impl Beams {
 mod tests {
     use super::super::{BeamOptions, grow::trace_bounces};
     use super::*;
-    use crate::scene::{Medium, View};
     use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::Plane;
+    use brillianteer_scene::{Medium, View};
 
     const BOUNCES: u32 = 5;
 

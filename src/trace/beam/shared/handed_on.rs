@@ -4,11 +4,11 @@
 use super::group_light::ArrivingLight;
 use super::moving::MovingCorner;
 use super::slanted_light::{EntryFacet, Slant, SlantedLight};
-use crate::scene::Medium;
 use crate::trace::beam::coherency::Coherency;
 use crate::trace::beam::follow::attenuated;
 use brillianteer_math::Affine;
 use brillianteer_optics::fresnel;
+use brillianteer_scene::Medium;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 

@@ -4,7 +4,6 @@
 use super::super::limits::{MOST_METALS, MOST_ROUGHNESSES};
 use super::super::{ByCard, Gpu, GpuEnvironment, GpuError};
 use super::card;
-use crate::scene::{Body, Film, Instance, Light, MetalInstance, Scene, View};
 use crate::solids::heart;
 use crate::solids::torus;
 use crate::trace::environment::{Environment, EnvironmentMap};
@@ -15,6 +14,7 @@ use brillianteer_math::{
     ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, ShadedMesh, ShadedSurface, Surface, TriangleMesh,
 };
 use brillianteer_optics::{Absorption, Material, Metal, Strata};
+use brillianteer_scene::{Body, Film, Instance, Light, MetalInstance, Scene, View};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 

@@ -2,13 +2,13 @@
 //! unresolved.
 
 use super::*;
-use crate::scene::{Film, Instance, Light, Scene, View};
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::{RayOptions, StoneTracer};
 use crate::trace::sampling::Sampling;
 use brillianteer_base::unwatched;
 use brillianteer_math::{Plane, Polytope};
 use brillianteer_optics::{Absorption, Material, Strata, material};
+use brillianteer_scene::{Film, Instance, Light, Scene, View};
 use glam::DVec3;
 
 const SIZE: u32 = 24;

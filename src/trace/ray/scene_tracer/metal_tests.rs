@@ -1,7 +1,6 @@
 //! Scenes with metal: all light is accounted for, chance changes no mean, and smooth normals change no outline.
 
 use super::*;
-use crate::scene::{Film, Instance, Light, MetalInstance, Scene, View};
 use crate::solids::torus;
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
@@ -9,6 +8,7 @@ use crate::trace::sampling::Sampling;
 use brillianteer_base::unwatched;
 use brillianteer_math::{Plane, Polytope, Pose, ShadedMesh, ShadedSurface};
 use brillianteer_optics::{Metal, Strata, material, metal_reflectance};
+use brillianteer_scene::{Film, Instance, Light, MetalInstance, Scene, View};
 use glam::DVec3;
 use num_complex::Complex64;
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 use super::*;
-use crate::scene::Instance;
 use crate::trace::ray::RayOptions;
 use brillianteer_math::{Plane, Polytope, Pose};
 use brillianteer_optics::Material;
+use brillianteer_scene::Instance;
 use glam::DVec3;
 
 /// Returns a cube of side 2 with this index, whose middle lies at this height.

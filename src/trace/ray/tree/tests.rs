@@ -1,10 +1,10 @@
 use crate::random::proportions;
-use crate::scene::{Medium, Projection, View};
 use crate::solids::{Triangles, clasp, heart, star};
 use crate::trace::DispersedRay;
 use crate::trace::ray::{Camera, Exit, Loss, MeetingRay, RayOptions, Roulette, StoneTracer};
 use brillianteer_math::{Plane, Polytope, Pose, Surface, TriangleMesh};
 use brillianteer_optics::fresnel;
+use brillianteer_scene::{Medium, Projection, View};
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use std::sync::Arc;

@@ -54,3 +54,8 @@ pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};
 pub use viewpoint::Viewpoint;
 pub use worlds::World;
+
+// Files that tests of several crates share.
+#[cfg(test)]
+#[path = "../../../tests/common/solids.rs"]
+mod solids;

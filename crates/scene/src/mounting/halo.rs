@@ -6,7 +6,7 @@ use super::rod::{Station, rod};
 use super::row::{SmallSizes, beads, check_count, collets, seats, sizes};
 use super::turned::{turned, wire};
 use super::{MetalPart, Mounting, Ring, RingError};
-use crate::scene::MOST_STONES;
+use crate::MOST_STONES;
 use brillianteer_math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
