@@ -42,7 +42,6 @@ pub mod measure;
 pub mod picture;
 pub mod render;
 pub mod search;
-pub mod trace;
 
 /// What every room shares: work that can be watched and stopped, and faults in files.
 pub use brillianteer_base as base;
@@ -50,5 +49,6 @@ pub use brillianteer_cut as cut;
 pub use brillianteer_math as math;
 pub use brillianteer_optics as optics;
 pub use brillianteer_scene as scene;
+pub use brillianteer_trace as trace;
 pub use glam;
 pub use render::measure;

@@ -20,7 +20,7 @@ use super::views::{ViewTools, bench_mode, clock, light_path_window, stage};
 use super::{dialogs, drops, menus, theme};
 use crate::io::Failure;
 use crate::io::library;
-use crate::trace::gpu::Gpu;
+use brillianteer_trace::gpu::Gpu;
 use eframe::{CreationContext, Storage};
 use egui::{ColorImage, Context, PanelState, TextureHandle, Ui, ViewportCommand};
 use std::collections::HashMap;

@@ -13,14 +13,14 @@ use crate::render::{
     Backend, Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer,
     ScopeProduct, Steps, Surroundings, USUAL_BOUNCES, Wanted,
 };
-use crate::trace::beam;
-use crate::trace::environment::{EnvironmentMap, Lighting};
-use crate::trace::ray::{Camera, RayOptions, StoneTracer};
-use crate::trace::sampling::SamplePass;
 use brillianteer_base::unwatched;
 use brillianteer_math::Polytope;
 use brillianteer_optics::line;
 use brillianteer_scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View, Viewpoint};
+use brillianteer_trace::beam;
+use brillianteer_trace::environment::{EnvironmentMap, Lighting};
+use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};
+use brillianteer_trace::sampling::SamplePass;
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};

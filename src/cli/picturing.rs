@@ -7,16 +7,17 @@ use super::specimen::note_colour;
 use crate::io::assembly::Assembly;
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
-use crate::io::lighting::Lighting;
+use crate::io::lighting;
 use crate::io::{Failure, Finish, StoredLight};
 use crate::picture::{Bloom, Develop, Overlay, Smoothing, Tone};
 use crate::render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
-use crate::trace::ray::{self, Camera, RayOptions};
 use brillianteer_base::Watch;
 use brillianteer_scene::{Film, Mipmap, Scene, View, Viewpoint};
+use brillianteer_trace::environment::Lighting;
+use brillianteer_trace::ray::{self, Camera, RayOptions};
 use glam::DVec2;
 use std::cell::RefCell;
 use std::path::Path;
@@ -90,7 +91,7 @@ impl<'a> PictureSetup<'a> {
         assembly.scene.instances.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
-        let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;
+        let mut lighting = lighting::load(light.map_or("studio", String::as_str))?;
         lighting.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
         if let Some(head) = options.head {
             lighting.light.head = within("head", head, 0.0, 89.0)?;

@@ -1,42 +1,39 @@
 //! Loads the light of a scene: one that comes with the program, a light file, or a panorama.
 
 use super::{Failure, light_file, panorama};
-use crate::trace::environment::EnvironmentMap;
-pub use crate::trace::environment::Lighting;
 use brillianteer_base::NameOrFileError;
 use brillianteer_base::Watch;
 use brillianteer_base::nearest;
 use brillianteer_scene::{LIGHTS, Light, Panorama, light};
+use brillianteer_trace::environment::{EnvironmentMap, Lighting};
 use std::path::PathBuf;
 
-impl Lighting {
-    /// Loads a light by its name, from a light file, or from a panorama alone.
-    ///
-    /// # Errors
-    /// Fails where no light has the name, or the file is at fault.
-    pub fn load(name_or_file: &str) -> Result<Self, NameOrFileError> {
-        let source = LightSource::read(name_or_file)?;
-        let map = EnvironmentMap::new(&source.light, source.panorama.as_ref());
-        Ok(source.with_map(map))
-    }
+/// Loads a light by its name, from a light file, or from a panorama alone.
+///
+/// # Errors
+/// Fails where no light has the name, or the file is at fault.
+pub fn load(name_or_file: &str) -> Result<Lighting, NameOrFileError> {
+    let source = LightSource::read(name_or_file)?;
+    let map = EnvironmentMap::new(&source.light, source.panorama.as_ref());
+    Ok(source.with_map(map))
+}
 
-    /// Loads the same light as [`load`](Self::load). Where its map takes seconds to draw, as that of a world does, `at_hand`
-    /// gets the light with a coarse map first, in which pictures can be shown but not written.
-    ///
-    /// # Errors
-    /// Fails where [`load`](Self::load) does, or where `watch` asks to stop.
-    pub fn load_watched(
-        name_or_file: &str,
-        watch: Watch,
-        at_hand: impl FnOnce(Self),
-    ) -> Result<Self, Failure> {
-        let source = LightSource::read(name_or_file)?;
-        if let Some(map) = EnvironmentMap::coarse(&source.light) {
-            at_hand(Self { light: source.light.clone(), map, warnings: vec![] });
-        }
-        let map = EnvironmentMap::watched(&source.light, source.panorama.as_ref(), watch)?;
-        Ok(source.with_map(map))
+/// Loads the same light as [`load`]. Where its map takes seconds to draw, as that of a world does, `at_hand` gets the light with a
+/// coarse map first, in which pictures can be shown but not written.
+///
+/// # Errors
+/// Fails where [`load`] does, or where `watch` asks to stop.
+pub fn load_watched(
+    name_or_file: &str,
+    watch: Watch,
+    at_hand: impl FnOnce(Lighting),
+) -> Result<Lighting, Failure> {
+    let source = LightSource::read(name_or_file)?;
+    if let Some(map) = EnvironmentMap::coarse(&source.light) {
+        at_hand(Lighting { light: source.light.clone(), map, warnings: vec![] });
     }
+    let map = EnvironmentMap::watched(&source.light, source.panorama.as_ref(), watch)?;
+    Ok(source.with_map(map))
 }
 
 /// A light that has been read, with all that its map is drawn from.
@@ -90,14 +87,14 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn refused(name: &str) -> NameOrFileError {
-        Lighting::load(name).err().unwrap()
+        load(name).err().unwrap()
     }
 
     #[test]
     fn a_light_is_taken_by_its_name_from_a_file_or_as_a_panorama() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
-        let ring = Lighting::load("Ring").unwrap();
+        let ring = load("Ring").unwrap();
         assert_eq!(
             (ring.light.name.as_str(), &ring.map),
             ("ring", &EnvironmentMap::new(&Light::ring(), None))
@@ -107,13 +104,13 @@ mod tests {
         let rgba: Vec<u8> = half.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
         std::fs::create_dir(at("skies")).unwrap();
         write_rgba_png(&at("skies/half.png"), &rgba, (8, 4), "half").unwrap();
-        let bare = Lighting::load(at("skies/half.png").to_str().unwrap()).unwrap();
+        let bare = load(at("skies/half.png").to_str().unwrap()).unwrap();
         assert_eq!(bare.light.name, "half");
         std::fs::copy(at("skies/half.png"), at("skies/odd.toml")).unwrap();
-        assert_eq!(Lighting::load(at("skies/odd.toml").to_str().unwrap()).unwrap().map, bare.map);
+        assert_eq!(load(at("skies/odd.toml").to_str().unwrap()).unwrap().map, bare.map);
         let named = "name = \"named\"\n[panorama]\nfile = \"half.png\"\n";
         std::fs::write(at("skies/named.light"), named).unwrap();
-        let named = Lighting::load(at("skies/named.light").to_str().unwrap()).unwrap();
+        let named = load(at("skies/named.light").to_str().unwrap()).unwrap();
         assert_eq!((named.light.name.as_str(), &named.map), ("named", &bare.map));
         let brightest = |sky: &EnvironmentMap| sky.levels[0].iter().map(|t| t[1]).fold(0.0, f32::max);
         assert!((brightest(&bare.map) - 1.0).abs() < 1e-6);
@@ -121,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_world_is_drawn_anew_from_its_name() {
-        let sunset = Lighting::load("Sunset").unwrap();
+        let sunset = load("Sunset").unwrap();
         assert_eq!(sunset.light.world, Some(World::Sunset));
         let data = serde_json::to_string(&sunset).unwrap();
         assert!(data.len() < 1000, "the map is in the data: {} bytes", data.len());
@@ -138,7 +135,7 @@ mod tests {
     fn a_world_is_at_hand_coarsely_before_it_is_drawn_and_its_drawing_can_be_stopped() {
         let mut coarse = None;
         let stop = |_: f64| ControlFlow::Break(());
-        let stopped = Lighting::load_watched("city", &stop, |light| coarse = Some(light));
+        let stopped = load_watched("city", &stop, |light| coarse = Some(light));
         assert!(matches!(stopped, Err(Failure::Stopped)));
         let coarse = coarse.unwrap();
         let calls = AtomicUsize::new(0);
@@ -146,7 +143,7 @@ mod tests {
             calls.fetch_add(1, Ordering::Relaxed);
             ControlFlow::Continue(())
         };
-        let whole = Lighting::load_watched("city", &count, |_| {}).unwrap();
+        let whole = load_watched("city", &count, |_| {}).unwrap();
         assert!(calls.into_inner() >= 16, "other work has its turn in between");
         assert!(coarse.light == whole.light && 4 * coarse.map.side < whole.map.side);
         // Both maps hold the same light.
@@ -155,8 +152,8 @@ mod tests {
         assert!((few / all - 1.0).abs() < 0.1, "{few} {all}");
         // A light that is drawn quickly is whole at once.
         let mut coarse = None;
-        let dome = Lighting::load_watched("dome", &unwatched, |light| coarse = Some(light)).unwrap();
-        assert!(coarse.is_none() && dome == Lighting::load("dome").unwrap());
+        let dome = load_watched("dome", &unwatched, |light| coarse = Some(light)).unwrap();
+        assert!(coarse.is_none() && dome == load("dome").unwrap());
     }
 
     #[test]

@@ -6,10 +6,10 @@ use super::exr;
 use super::png::{PngFile, encoder};
 use super::stored_light::{MOST_HELD, StoredLight};
 use crate::picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows, fxaa};
-use crate::trace::sampling::LitScene;
 #[cfg(feature = "exr")]
 use ::exr::{math::Vec2, meta::attribute::Chromaticities};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_trace::sampling::LitScene;
 use std::path::Path;
 
 /// The primaries and the white of sRGB, as CIE x and y (ITU-R BT.709-6, §1).

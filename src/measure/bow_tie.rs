@@ -3,8 +3,8 @@
 
 use super::exit_sight::ExitSight;
 use super::interval::Interval;
-use crate::trace::beam::Beams;
 use brillianteer_math::{Calipers, Polytope, hull};
+use brillianteer_trace::beam::Beams;
 use glam::DVec2;
 
 /// A line that passes the origin more closely than this has no triangle with it.

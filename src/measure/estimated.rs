@@ -6,11 +6,11 @@
 //! any number of cores.
 
 use super::figures::{Figures, Zones, by_summed_beams};
-use crate::trace::beam::SummedBeams;
-use crate::trace::tail::Tail;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::Polytope;
 use brillianteer_math::random_bits::{GAMMA, mixed, unit};
+use brillianteer_trace::beam::SummedBeams;
+use brillianteer_trace::tail::Tail;
 use glam::DVec2;
 use rayon::prelude::*;
 

@@ -1,8 +1,8 @@
 //! The view of an eye through an exit: the head, the dome or the space below, its brightness, and the colours that
 //! the eye tells apart.
 
-use crate::trace::beam::{Beam, Beams};
 use brillianteer_scene::elevation_deg;
+use brillianteer_trace::beam::{Beam, Beams};
 
 /// The part of the surroundings that the eye sees through an exit.
 #[derive(Clone, Copy, PartialEq, Eq)]

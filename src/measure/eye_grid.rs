@@ -5,9 +5,9 @@
 //! clipped to the cells that it meets.
 
 use super::interval::Interval;
-use crate::trace::beam::Beams;
 use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_math::{Affine, area, clip};
+use brillianteer_trace::beam::Beams;
 use glam::{DMat2, DVec2, IVec2};
 
 /// The least side of a cell, girdle radii, which bounds the number of cells. In stones of more than 72 mm, cells are

@@ -10,10 +10,10 @@ use super::interval::Interval;
 use super::light_measures::MeasureSettings;
 use super::pattern_settings::{PatternSettings, SHAPE_IS_SEEN};
 use super::virtual_facets::VirtualFacets;
-use crate::trace::beam::{Beam, Beams};
 use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_cut::FacetZones;
 use brillianteer_math::Polytope;
+use brillianteer_trace::beam::{Beam, Beams};
 use serde::Serialize;
 
 /// The measures of the pattern on the face.

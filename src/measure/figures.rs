@@ -1,8 +1,8 @@
 //! The figures of one view, and how they are summed up from exact beams.
 
 use super::estimated::Estimate;
-use crate::trace::beam::{BeamSums, Beams, SummedBeams};
 use brillianteer_scene::Scope;
+use brillianteer_trace::beam::{BeamSums, Beams, SummedBeams};
 
 /// A number for each band of a scope, in the scope's order.
 pub type Zones = Vec<f64>;

@@ -7,11 +7,11 @@
 use super::facet_deviations::{Mains, NotEightfold, OCTANTS, median};
 use super::interval::Interval;
 use super::octant_pattern::{CellKind, OctantFrame, OctantPattern, OctantSide, Region};
-use crate::trace::beam::{BeamOptions, Beams, trace};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_cut::Outline;
 use brillianteer_math::span;
 use brillianteer_scene::{Medium, Side, Stone, View, elevation_deg};
+use brillianteer_trace::beam::{BeamOptions, Beams, trace};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_4;
 

@@ -1,8 +1,8 @@
 //! The light that a stone sends upward under an even sky, in all directions.
 
-use crate::trace::ray::{Camera, RayOptions, StoneTracer};
 use brillianteer_math::SolidRef;
 use brillianteer_scene::{Lean, Medium, View};
+use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;

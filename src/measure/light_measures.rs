@@ -11,10 +11,10 @@ use super::interval::Interval;
 use super::measure_name::MeasureName;
 use super::pattern_settings::PatternSettings;
 use super::scintillation::Scintillation;
-use crate::trace::beam::{Beam, Beams};
 use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_math::Polytope;
 use brillianteer_scene::DomeLight;
+use brillianteer_trace::beam::{Beam, Beams};
 use serde::{Deserialize, Serialize};
 
 /// The angle in degrees that an eye's pupil of 3.3 mm fills at 250 mm. Colours that spread over less enter the eye

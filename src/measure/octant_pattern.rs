@@ -2,8 +2,8 @@
 //! octants.
 
 use super::facet_deviations::OCTANTS;
-use crate::trace::beam::Beams;
 use brillianteer_math::{Affine, area, centroid, clip, span};
+use brillianteer_trace::beam::Beams;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 

@@ -2,16 +2,16 @@
 //! beams and have a sampling error, but they check the beams independently.
 
 use super::figures::Figures;
-#[cfg(feature = "gpu")]
-use crate::trace::ScopeShot;
-#[cfg(feature = "gpu")]
-use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
-use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::SolidRef;
 #[cfg(feature = "gpu")]
 use brillianteer_scene::Film;
 use brillianteer_scene::{Medium, Scope, View};
+#[cfg(feature = "gpu")]
+use brillianteer_trace::ScopeShot;
+#[cfg(feature = "gpu")]
+use brillianteer_trace::gpu::{Gpu, GpuError, ScopePixel};
+use brillianteer_trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
 use glam::DVec2;
 use rayon::prelude::*;
 

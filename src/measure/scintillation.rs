@@ -5,9 +5,9 @@ use super::exit_sight::brightness;
 use super::eye_grid::EyeGrid;
 use super::interval::Interval;
 use super::pattern_settings::PatternSettings;
-use crate::trace::beam::Beams;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_scene::View;
+use brillianteer_trace::beam::Beams;
 use glam::{DQuat, DVec2};
 use serde::Serialize;
 

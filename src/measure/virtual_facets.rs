@@ -5,10 +5,10 @@
 //! the facets.
 
 use super::interval::Interval;
-use crate::trace::beam::Beams;
 use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_math::random_bits::{GAMMA, mixed};
 use brillianteer_math::{Basis, Plane, Polytope};
+use brillianteer_trace::beam::Beams;
 use glam::{DMat2, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
@@ -134,11 +134,11 @@ fn images(polytope: &Polytope, view: &Basis, copy: &DMat2) -> Vec<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::beam::{BeamOptions, trace};
     use brillianteer_base::unwatched;
     use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::Plane;
     use brillianteer_scene::{Medium, View};
+    use brillianteer_trace::beam::{BeamOptions, trace};
 
     fn stone() -> Polytope {
         let planes: Vec<Plane> = TOLKOWSKY.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();

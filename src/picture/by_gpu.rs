@@ -1,10 +1,10 @@
 //! The pictures of [`by_rays`](super::by_rays), traced on a graphics card.
 
 use super::Rows;
-use crate::trace::ScopeShot;
-use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_scene::Glare;
+use brillianteer_trace::ScopeShot;
+use brillianteer_trace::gpu::{Gpu, GpuError, ScopePixel};
 
 /// Traces a picture on a graphics card, each pixel by a regular grid of rays. It calls `each` as
 /// [`by_rays::trace`](super::by_rays::trace()) does, with the same channels.

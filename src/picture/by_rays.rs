@@ -1,10 +1,10 @@
 //! Pictures in a scope by point rays: for perspective views, where beams do not apply, and as a check on beams.
 
 use super::Rows;
-use crate::trace::ScopeShot;
-use crate::trace::ray::{Camera, Exit, StoneTracer};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_scene::Glare;
+use brillianteer_trace::ScopeShot;
+use brillianteer_trace::ray::{Camera, Exit, StoneTracer};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 

@@ -2,9 +2,9 @@
 //! only the light in the bodies is rough.
 
 use super::Linear;
-use crate::trace::ray::FirstBodies;
-use crate::trace::sampling::{LitScene, colour};
 use brillianteer_scene::Film;
+use brillianteer_trace::ray::FirstBodies;
+use brillianteer_trace::sampling::{LitScene, colour};
 use glam::{DAffine2, DMat2, DVec2, DVec3, IVec2};
 use rayon::prelude::*;
 

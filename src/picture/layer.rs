@@ -1,9 +1,9 @@
 //! Layers to be painted: polygons of light, each in one channel.
 
 use super::strips::strips;
-use crate::trace::beam::{Beam, Beams};
 use brillianteer_math::Affine;
 use brillianteer_scene::{Glare, Scope};
+use brillianteer_trace::beam::{Beam, Beams};
 use glam::{DMat2, DVec2};
 
 /// Where absorption changes a beam's light by more than this part across its outline, the beam is painted in strips.

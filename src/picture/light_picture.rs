@@ -1,8 +1,8 @@
 //! A small picture of a light, which shows in lists where its sources are.
 
-use crate::trace::environment::{BroadLight, channels};
 use brillianteer_optics::SrgbEncoder;
 use brillianteer_scene::{Light, toward};
+use brillianteer_trace::environment::{BroadLight, channels};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use std::f64::consts::PI;
 

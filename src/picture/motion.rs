@@ -1,9 +1,9 @@
 //! The motion between two pictures of resting bodies under a moving eye, for temporal antialiasing.
 
 use super::MotionVector;
-use crate::trace::ray::{Camera, SceneProbe};
-use crate::trace::sampling::LitScene;
 use brillianteer_scene::View;
+use brillianteer_trace::ray::{Camera, SceneProbe};
+use brillianteer_trace::sampling::LitScene;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 

@@ -9,10 +9,10 @@ mod wireframe;
 use self::scale::viridis;
 use self::wireframe::Wires;
 use super::NameError;
-use crate::trace::DispersedRay;
-use crate::trace::ray::{Exit, MeetingRay, ProbeRay, SceneProbe};
-use crate::trace::sampling::LitScene;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_trace::DispersedRay;
+use brillianteer_trace::ray::{Exit, MeetingRay, ProbeRay, SceneProbe};
+use brillianteer_trace::sampling::LitScene;
 use rayon::prelude::*;
 use std::str::FromStr;
 

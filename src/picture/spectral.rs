@@ -1,9 +1,9 @@
 //! Pictures of stones under light: adds up the sample passes that a picture is made from.
 
 use super::Linear;
-use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_optics::Strata;
+use brillianteer_trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
 use std::ops::Range;
 
 /// The light that a picture does not show, as means over the area that the stones cover.

@@ -2,10 +2,10 @@
 //! symmetry is written out; its copies refer to it, and name the facets that replace those of a path.
 
 use super::drawing::{hex, page};
-use crate::trace::beam::Beams;
 use brillianteer_math::{Basis, Plane};
 use brillianteer_optics::{LinearRgb, encoded_from_linear};
 use brillianteer_scene::{Film, Glare, Scope, Stone, elevation_deg};
+use brillianteer_trace::beam::Beams;
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 use svg::Document;
 use svg::node::element::{Definitions, Description, Group, Polygon, Rectangle, Title, Use};

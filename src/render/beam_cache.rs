@@ -1,9 +1,9 @@
 //! Beams that several pictures share.
 
-use crate::trace::beam::{self, BeamOptions, Beams};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::Polytope;
 use brillianteer_scene::{Body, Medium, View};
+use brillianteer_trace::beam::{self, BeamOptions, Beams};
 use std::sync::Arc;
 
 /// The most sets of beams that are kept.

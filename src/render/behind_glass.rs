@@ -4,9 +4,9 @@ use super::job::{Job, MapProduct, PaneProduct};
 use super::renderer::{Output, RenderError};
 use crate::picture::RefractionMap;
 use crate::picture::liquid_glass::{PaneLighting, compare, surroundings, traced};
-use crate::trace::environment::EnvironmentMap;
 use brillianteer_base::Watch;
 use brillianteer_optics::{Illuminant, Strata};
+use brillianteer_trace::environment::EnvironmentMap;
 
 impl MapProduct {
     pub(super) fn render(&self, job: &Job, passes: u32, watch: Watch) -> Result<Output, RenderError> {

@@ -1,7 +1,7 @@
 //! The graphics card that a renderer may use.
 
 #[cfg(feature = "gpu")]
-use crate::trace::gpu::{Gpu, GpuError};
+use brillianteer_trace::gpu::{Gpu, GpuError};
 #[cfg(feature = "gpu")]
 use std::sync::{Arc, OnceLock};
 

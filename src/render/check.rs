@@ -2,11 +2,11 @@
 
 use super::job::{Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality};
 use super::surroundings::Surroundings;
-use crate::trace::environment::LightingError;
 use brillianteer_optics::{DispersionError, INDICES, INDICES_IN_WORDS};
 use brillianteer_scene::{
     Film, Medium, Panorama, PanoramaError, Pose, Projection, Scene, Scope, ScopeError, View,
 };
+use brillianteer_trace::environment::LightingError;
 use glam::DQuat;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;

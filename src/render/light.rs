@@ -6,14 +6,14 @@ use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
 use crate::picture::spectral::{EachRow, Remainder, expose_rows, seen};
 use crate::picture::{ByBeams, Linear};
-#[cfg(feature = "gpu")]
-use crate::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
-use crate::trace::ray::ByRays;
-use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
-#[cfg(feature = "gpu")]
-use crate::trace::sampling::{RadiancePixel, SamplePass};
 use brillianteer_base::Watch;
 use brillianteer_optics::Strata;
+#[cfg(feature = "gpu")]
+use brillianteer_trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
+use brillianteer_trace::ray::ByRays;
+use brillianteer_trace::sampling::{LitScene, ProgressiveImage, Sampling};
+#[cfg(feature = "gpu")]
+use brillianteer_trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
 /// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass and one

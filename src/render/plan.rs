@@ -3,9 +3,9 @@
 use super::card::{Backend, Card, NoCard};
 use super::check::JobError;
 use super::job::{Job, LightProduct, Product, Steps, USUAL_BOUNCES};
-use crate::trace::ray::Camera;
 use brillianteer_math::{NotConvex, SolidRef};
 use brillianteer_scene::{Projection, View};
+use brillianteer_trace::ray::Camera;
 use serde::{Deserialize, Serialize};
 
 /// The tracer of a request.

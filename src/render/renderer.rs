@@ -8,10 +8,10 @@ use crate::measure::{LATTICE, LightMeasures, MeasureDerivatives, Measured};
 use crate::picture::liquid_glass::{Cost, PaneError};
 use crate::picture::spectral::Remainder;
 use crate::picture::{Carried, Linear, RefractionMap, Rows};
-use crate::trace::beam::Beams;
-#[cfg(feature = "gpu")]
-use crate::trace::gpu::GpuError;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_trace::beam::Beams;
+#[cfg(feature = "gpu")]
+use brillianteer_trace::gpu::GpuError;
 use std::sync::Arc;
 
 /// Does jobs. It keeps the beams of the last ones, and no longer uses a card that was lost.

@@ -6,11 +6,11 @@ use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer, TakenMeasures};
 use crate::measure::{self, Figures, LightMeasures, Scintillation, measured, rocked_views};
 use crate::picture::{Layer, Rows, by_rays, paint};
-use crate::trace::ScopeShot;
-use crate::trace::beam::{self, BeamOptions, Beams, SumOptions};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::{Polytope, SolidRef};
 use brillianteer_scene::{Body, Medium, Scope};
+use brillianteer_trace::ScopeShot;
+use brillianteer_trace::beam::{self, BeamOptions, Beams, SumOptions};
 use glam::DVec2;
 use std::sync::Arc;
 

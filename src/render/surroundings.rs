@@ -1,8 +1,8 @@
 //! The surroundings of the stones in a picture: light, and the backplate.
 
-use crate::trace::environment::{Backplate, Environment, Lighting};
 use brillianteer_math::Basis;
 use brillianteer_scene::{Film, Mipmap, View};
+use brillianteer_trace::environment::{Backplate, Environment, Lighting};
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

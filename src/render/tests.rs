@@ -6,7 +6,6 @@ use super::*;
 use crate::measure::Bounds;
 use crate::picture::Linear;
 use crate::picture::{Backdrop, liquid_glass::GlassPane};
-use crate::trace::environment::{EnvironmentMap, Lighting};
 use brillianteer_base::unwatched;
 use brillianteer_cut::{Design, Family, MaterialRef};
 use brillianteer_math::Pose;
@@ -14,6 +13,7 @@ use brillianteer_scene::{
     ASET_CONE, Backing, Film, Glare, Instance, Light, Mipmap, Panorama, PanoramaRef, Projection, Scene,
     Scope, Specimen, View,
 };
+use brillianteer_trace::environment::{EnvironmentMap, Lighting};
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;

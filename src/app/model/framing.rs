@@ -130,10 +130,10 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
     use crate::app::model::framing_fit::bounds;
-    use crate::trace::ray::Camera;
     use brillianteer_cut::{Cut, Design};
     use brillianteer_math::Plane;
     use brillianteer_scene::{Film, Projection};
+    use brillianteer_trace::ray::Camera;
 
     /// Returns a stone of planes: half a prism, which lies beside the origin.
     fn half_round(reach: f64) -> Arc<Specimen> {

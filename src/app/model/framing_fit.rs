@@ -1,7 +1,7 @@
 //! The part of the image plane that a view takes in, and when it is fitted anew.
 
-use crate::trace::ray::Camera;
 use brillianteer_scene::{Film, View};
+use brillianteer_trace::ray::Camera;
 use glam::{DVec2, DVec3};
 
 /// Stones whose extents agree to this part keep their scale when they are turned about their axis.

@@ -160,7 +160,7 @@ mod tests {
     use crate::app::model::update;
     use crate::app::model::workspace::Workspace;
     use crate::app::studio::{Paper, Shot, Which};
-    use crate::trace::ray::Camera;
+    use brillianteer_trace::ray::Camera;
     use glam::{DMat2, DVec2};
 
     /// Returns a model that has begun a scene of the program.

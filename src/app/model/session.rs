@@ -23,7 +23,7 @@ use super::work::Work;
 use super::workspace::Workspace;
 use crate::app::studio::{Order, ShotLight};
 use crate::io::Failure;
-use crate::io::lighting::Lighting;
+use crate::io::lighting;
 use crate::picture::liquid_glass::LightFrom;
 use brillianteer_scene::RingPlan;
 use glam::DVec2;
@@ -187,7 +187,7 @@ impl Session {
     /// # Errors
     /// Fails only where the program itself is broken: it comes with the light that it starts with.
     pub fn new(document: &Document, workspace: &Workspace) -> Result<Self, Failure> {
-        let first = Lighting::load(FIRST_LIGHT)?;
+        let first = lighting::load(FIRST_LIGHT)?;
         Ok(Self {
             framing: Framing::of(document),
             views: ViewHistory::new(workspace),

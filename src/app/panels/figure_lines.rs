@@ -216,10 +216,10 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::studio::FiguresOrder;
     use crate::measure::by_beams;
-    use crate::trace::beam;
     use brillianteer_base::unwatched;
     use brillianteer_optics::line;
     use brillianteer_scene::View;
+    use brillianteer_trace::beam;
     use std::sync::Arc;
 
     /// Returns the figures of the first stone, with a share of the light left unresolved.

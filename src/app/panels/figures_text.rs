@@ -145,9 +145,9 @@ mod tests {
     use super::*;
     use crate::app::panels::figure_lines::{TOTALS, ZONES};
     use crate::measure::by_beams;
-    use crate::trace::beam;
     use brillianteer_base::unwatched;
     use brillianteer_scene::{ASET_CONE, Backing, Scope, View};
+    use brillianteer_trace::beam;
 
     fn line(name: &str, share: f64, other: Option<f64>) -> FigureLine {
         let figure = ZONES.iter().chain(&TOTALS).find(|figure| figure.name == name).unwrap();

@@ -10,10 +10,10 @@ use crate::render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,
 };
-use crate::trace::beam::BeamOptions;
-use crate::trace::ray::RayOptions;
 use brillianteer_optics::line;
 use brillianteer_scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
+use brillianteer_trace::beam::BeamOptions;
+use brillianteer_trace::ray::RayOptions;
 use glam::DVec2;
 use std::sync::Arc;
 

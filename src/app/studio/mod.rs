@@ -34,7 +34,7 @@ pub use shot_light::ShotLight;
 pub use take::ShotTracer;
 
 use crate::app::urgency;
-use crate::trace::gpu::Gpu;
+use brillianteer_trace::gpu::Gpu;
 use mailbox::Mailbox;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, channel};

@@ -3,10 +3,10 @@
 use super::order::{Shot, Slot};
 use crate::io::background::BackgroundRef;
 use crate::picture::{Linear, MotionVector, TemporalHistory};
-use crate::trace::ray;
-use crate::trace::sampling::LitScene;
 use brillianteer_cut::{Cut, Glass};
 use brillianteer_scene::{Body, Companions, Film, Pose, Specimen, View};
+use brillianteer_trace::ray;
+use brillianteer_trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -136,9 +136,9 @@ mod tests {
     use crate::app::model::motion::{Motion, WaveCache};
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
-    use crate::io::lighting::Lighting;
-    use crate::trace::environment::backplate_point;
+    use crate::io::lighting;
     use brillianteer_scene::{Copies, Glare, Projection};
+    use brillianteer_trace::environment::backplate_point;
 
     const SLOT: Slot = (0, Which::Present);
 
@@ -159,7 +159,7 @@ mod tests {
             view: View { projection: *projection, ..eye.view(None) },
             film: eye.film([48, 40], &FramingFit::reaching(3.0)),
             whole: FramingFit::reaching(3.0).film([48, 40]),
-            light: crate::app::studio::ShotLight::whole(Lighting::load("dome").unwrap()),
+            light: crate::app::studio::ShotLight::whole(lighting::load("dome").unwrap()),
             bands: 3,
             jitter: true,
             behind: None,

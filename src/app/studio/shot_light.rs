@@ -1,9 +1,9 @@
 //! The light of shots: as it is at hand, and whole.
 
 use crate::io::Failure;
-use crate::io::lighting::Lighting;
-use crate::trace::environment::EnvironmentMap;
 use brillianteer_base::Watch;
+use brillianteer_trace::environment::EnvironmentMap;
+use brillianteer_trace::environment::Lighting;
 use std::sync::Arc;
 
 /// The light of a shot. While the map of a world is drawn, a coarse one is at hand for rough pictures; all others wait for

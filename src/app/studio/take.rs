@@ -146,12 +146,13 @@ mod tests {
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::{ShotLight, survey};
     use crate::io::background::BackgroundRef;
-    use crate::io::lighting::Lighting;
+    use crate::io::lighting;
     use crate::picture::{Background, Bloom, Develop, develop, fxaa};
     use crate::render::{Quality, Steps};
-    use crate::trace::gpu::Gpu;
     use brillianteer_base::unwatched;
     use brillianteer_scene::{Companions, Glare, Pose, Projection, View};
+    use brillianteer_trace::environment::Lighting;
+    use brillianteer_trace::gpu::Gpu;
     use glam::DVec2;
     use std::ops::ControlFlow;
     use std::path::Path;
@@ -172,7 +173,7 @@ mod tests {
             view: View { projection, ..eye.view(None) },
             film: eye.film([56, 40], &FramingFit::reaching(1.0)),
             whole: FramingFit::reaching(1.0).film([56, 40]),
-            light: ShotLight::whole(Lighting::load("dome").unwrap()),
+            light: ShotLight::whole(lighting::load("dome").unwrap()),
             bands: 16,
             jitter: true,
             behind: None,
@@ -247,7 +248,7 @@ mod tests {
 
     #[test]
     fn only_a_rough_picture_is_taken_under_a_coarse_light() {
-        let [whole, map] = ["dome", "ring"].map(|name| Lighting::load(name).unwrap());
+        let [whole, map] = ["dome", "ring"].map(|name| lighting::load(name).unwrap());
         let coarse = ShotLight::coarse(Lighting { map: map.map, ..whole.clone() });
         let small = shot(Shows::Render, None);
         let small = Shot { film: coarser(&small.film, 2.0), bands: 3, ..small };

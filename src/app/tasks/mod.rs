@@ -28,7 +28,7 @@ use crate::app::model::task::CopyRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
 use crate::app::studio::{ShotLight, Slot, TakenPicture, Wake};
-use crate::io::lighting::Lighting;
+use crate::io::lighting;
 use crate::io::{Failure, goal_file};
 use crate::search::Goal;
 use autosave::Autosave;
@@ -156,7 +156,7 @@ impl Outside {
         self.run(Key::Light, failed, move |job| {
             let at_hand =
                 |coarse| job.send(Computed::Light(name.clone(), Ok(ShotLight::coarse(coarse))).into());
-            let loaded = Lighting::load_watched(&name, &|done| job.watch(done), at_hand);
+            let loaded = lighting::load_watched(&name, &|done| job.watch(done), at_hand);
             Computed::Light(name, loaded.map(ShotLight::whole))
         });
     }

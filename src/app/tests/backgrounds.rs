@@ -6,7 +6,7 @@ use crate::app::model::action::Computed;
 use crate::app::model::command::Command;
 use crate::app::model::workspace::Pane;
 use crate::app::studio::ShotLight;
-use crate::io::lighting::Lighting;
+use crate::io::lighting;
 use crate::picture::RefractionMap;
 use crate::picture::liquid_glass::PaneQuality;
 
@@ -302,7 +302,7 @@ fn a_light_that_is_being_drawn_is_shown_coarsely_at_once_and_nothing_fine_is_mad
     let says = |bench: &Bench, what: &str| bench.harness.query_by_label_contains(what).is_some();
     bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
     assert!(says(&bench, "loading the light… ·"), "the light before is shown");
-    let coarse = ShotLight::coarse(Lighting::load("ring").unwrap());
+    let coarse = ShotLight::coarse(lighting::load("ring").unwrap());
     come(&mut bench, &coarse);
     let rough = bench.editor().shown((0, Which::Present)).unwrap().taken.image.pixels.clone();
     assert!(is_drawn(&rough) && says(&bench, "drawing the light… ·"));
@@ -313,7 +313,7 @@ fn a_light_that_is_being_drawn_is_shown_coarsely_at_once_and_nothing_fine_is_mad
     bench.harness.state_mut().act(Command::CopyPicture);
     bench.harness.run_steps(2);
     assert!(says(&bench, "still being drawn"));
-    come(&mut bench, &ShotLight::whole(Lighting::load("ring").unwrap()));
+    come(&mut bench, &ShotLight::whole(lighting::load("ring").unwrap()));
     bench.settle();
     assert!(bench.editor().views.gallery.traced[&(0, Which::Present)].grade == Grade::Fine);
 }

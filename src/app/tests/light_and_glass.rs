@@ -8,11 +8,11 @@ use crate::app::setup::Setup;
 use crate::app::studio::{Shot, Smoothing};
 use crate::io::cut_file;
 use crate::picture::Bloom;
-use crate::trace::environment::{Environment, EnvironmentMap};
 use brillianteer_cut::MaterialRef;
 use brillianteer_math::Basis;
 use brillianteer_optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use brillianteer_scene::{LIGHTS, Light, light};
+use brillianteer_trace::environment::{Environment, EnvironmentMap};
 use egui::{
     Color32, ColorImage, Context, FullOutput, ImageData, Key, Modifiers, Rect, Role, Shape, TextureId,
     TexturesDelta,

@@ -2,7 +2,7 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test --release --lib looks`, and look at the new pictures.
 
 use super::*;
-use crate::trace::gpu::Gpu;
+use brillianteer_trace::gpu::Gpu;
 use egui_kittest::SnapshotOptions;
 
 /// Returns whether a window can be drawn here. Where it cannot, this prints why, or fails if `BRILLIANTEER_REQUIRE_GPU` is set.

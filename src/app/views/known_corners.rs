@@ -2,9 +2,9 @@
 
 use super::pane_view::PaneView;
 use crate::app::model::meet_pick::MeetPick;
-use crate::trace::ray::Camera;
 use brillianteer_cut::{CornerFault, Cut, Meet, TierCorner};
 use brillianteer_scene::Specimen;
+use brillianteer_trace::ray::Camera;
 use egui::{Color32, Pos2};
 use glam::DVec3;
 use std::sync::Arc;

@@ -8,9 +8,9 @@ mod tests;
 
 use self::orbit::Orbit;
 use self::table::PathTable;
-use crate::trace::ray::Path;
 use brillianteer_math::Basis;
 use brillianteer_scene::{Band, Body, Scope, View, elevation_deg};
+use brillianteer_trace::ray::Path;
 use egui::{Align, Color32, CursorIcon, Layout, Sense, Ui, Vec2, WidgetInfo, accesskit::Role, vec2};
 use glam::{DQuat, DVec3};
 

@@ -1,8 +1,8 @@
 //! The view of the stone in a pane, and the conversion between points of its picture and of the window.
 
-use crate::trace::ray::Camera;
 use brillianteer_math::SolidRef;
 use brillianteer_scene::{Body, Film, View};
+use brillianteer_trace::ray::Camera;
 use egui::{Color32, Pos2, Rect, Stroke, Ui, vec2};
 use glam::{DMat2, DVec2, DVec3};
 

@@ -1,9 +1,9 @@
 //! Finds the facet under the pointer, and the direction that its light comes from.
 
-use crate::trace::ray::{Camera, Path, RayOptions, StoneTracer};
 use brillianteer_cut::tier_stem;
 use brillianteer_optics::line;
 use brillianteer_scene::{Film, Pose, Scope, Specimen, View, elevation_deg};
+use brillianteer_trace::ray::{Camera, Path, RayOptions, StoneTracer};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 

@@ -8,8 +8,8 @@ use super::tier_drag::TierDrag;
 use crate::app::model::action::Edit;
 use crate::app::model::command::Command;
 use crate::app::shows::Shows;
-use crate::trace::ray::Camera;
 use brillianteer_cut::{Cut, Meet};
+use brillianteer_trace::ray::Camera;
 use egui::{CursorIcon, Key, PointerButton, Pos2, Response, Ui, Vec2, vec2};
 use glam::DVec3;
 

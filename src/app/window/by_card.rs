@@ -3,7 +3,7 @@
 use super::{ID, WindowError, viewport, without_place};
 use crate::app::editor::Editor;
 use crate::app::setup::Setup;
-use crate::trace::gpu::Gpu;
+use brillianteer_trace::gpu::Gpu;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -3,7 +3,7 @@
 use super::CardLine;
 use crate::io::Failure;
 use crate::render::RenderError;
-use crate::trace::gpu::{CardPeak, DispatchTotals, Gpu};
+use brillianteer_trace::gpu::{CardPeak, DispatchTotals, Gpu};
 use serde_json::{Value, json};
 use std::sync::OnceLock;
 

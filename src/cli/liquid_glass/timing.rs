@@ -4,9 +4,9 @@ use crate::picture::Linear;
 #[cfg(feature = "gpu")]
 use crate::picture::liquid_glass::PanesOnCard;
 use crate::picture::liquid_glass::{GlassPane, PaneQuality, PreparedPane, pane};
-#[cfg(feature = "gpu")]
-use crate::trace::gpu::{Gpu, GpuError};
 use brillianteer_scene::Panorama;
+#[cfg(feature = "gpu")]
+use brillianteer_trace::gpu::{Gpu, GpuError};
 use std::time::Instant;
 
 /// The number of timed runs of each part, after one to warm up. The quickest is the result, since other programs can

@@ -4,9 +4,9 @@ use super::as_tiers;
 use crate::io::{cut_file, library};
 use crate::measure::{MeasureDerivatives, MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepKey, with_numbers};
-use crate::trace::beam::{BeamOptions, Beams, trace_bounces};
 use brillianteer_cut::{Cut, Design, ScaledSide};
 use brillianteer_scene::{Medium, Specimen, Stone, View, Viewpoint};
+use brillianteer_trace::beam::{BeamOptions, Beams, trace_bounces};
 
 /// The number of reflections through which all stones of a comparison are followed, so that neighbours have the same
 /// beams.

@@ -9,9 +9,9 @@ use crate::picture::{
     DiagramStyle, DrawnMarks, Layer, Palette, Picture, Scoped, marked_diagram, profile, vector,
 };
 use crate::render::{Job, Partial, Reading, Rendered, Renderer};
-use crate::trace::beam::{self, Beams};
 use brillianteer_base::Watch;
 use brillianteer_scene::{Film, Stone, View};
+use brillianteer_trace::beam::{self, Beams};
 
 /// The least share of the light that an energy drawing leaves unresolved. The drawing holds every polygon of the
 /// subdivision, and no viewer could show a finer one.

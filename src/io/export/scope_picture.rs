@@ -6,9 +6,9 @@ use super::viewing::{Viewing, note};
 use crate::io::Failure;
 use crate::picture::{Caption, Palette, Scoped};
 use crate::render::{Partial, Product, Reading, Renderer, ScopeProduct};
-use crate::trace::ray::Camera;
 use brillianteer_base::Watch;
 use brillianteer_scene::Film;
+use brillianteer_trace::ray::Camera;
 use glam::DVec2;
 
 /// The request for a picture of energy in a scope.

@@ -2,7 +2,7 @@
 
 use crate::io::Failure;
 use crate::io::export::{Reporter, ScopeStill, Viewing, note};
-use crate::io::lighting::Lighting;
+use crate::io::lighting;
 use crate::io::png_bytes::png;
 use crate::measure::facet_deviations;
 use crate::picture::{
@@ -97,7 +97,7 @@ fn under_light(
     tell: Reporter,
 ) -> Result<NamedDrawing, Failure> {
     let product = Product::Light(LightProduct {
-        surroundings: Surroundings::of(Arc::new(Lighting::load("studio")?)),
+        surroundings: Surroundings::of(Arc::new(lighting::load("studio")?)),
         wavelengths: WAVELENGTHS,
         adapted: true,
         strength: 1.0,

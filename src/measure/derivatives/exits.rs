@@ -3,9 +3,9 @@
 use super::super::exit_sight::seen_apart;
 use super::super::{MeasureName, MeasureSettings};
 use super::{BeamSum, divide_by_silhouette, share};
-use crate::trace::beam::{Beam, BeamPartials, Beams};
 use brillianteer_math::Polytope;
 use brillianteer_scene::{DomeLight, elevation_deg};
+use brillianteer_trace::beam::{Beam, BeamPartials, Beams};
 use glam::DVec3;
 
 /// The exits that a measure counts, with the parameters of their weights.

@@ -2,7 +2,7 @@
 
 use super::super::exit_sight::{ExitSight, brightness, shines};
 use super::{BeamSum, divide_by_silhouette, share};
-use crate::trace::beam::{Beam, BeamPartials, Beams};
+use brillianteer_trace::beam::{Beam, BeamPartials, Beams};
 
 /// Sums the area whose strongest exit meets the head or comes from below.
 pub(super) fn extinction(beams: &Beams, head_deg: f64) -> BeamSum {

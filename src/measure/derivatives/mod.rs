@@ -4,8 +4,8 @@ mod exits;
 mod face;
 
 use super::{MeasureName, MeasureSettings};
-use crate::trace::beam::{Beam, BeamPartials, Beams, PlaneDerivatives};
 use brillianteer_math::Polytope;
+use brillianteer_trace::beam::{Beam, BeamPartials, Beams, PlaneDerivatives};
 use exits::CountedExits;
 
 /// A measure with its derivatives.
@@ -84,11 +84,11 @@ fn divide_by_silhouette(partials: &mut BeamPartials, beams: &Beams, parts: f64) 
 mod tests {
     use super::*;
     use crate::measure::LightMeasures;
-    use crate::trace::beam::{BeamOptions, trace_bounces};
     use brillianteer_base::unwatched;
     use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use brillianteer_math::Plane;
     use brillianteer_scene::{Medium, View};
+    use brillianteer_trace::beam::{BeamOptions, trace_bounces};
     use glam::DVec3;
 
     const BOUNCES: u32 = 4;

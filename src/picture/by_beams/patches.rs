@@ -1,8 +1,8 @@
 //! The polygons from which exact beams paint a picture.
 
 use crate::picture::strips::strips;
-use crate::trace::beam::Beam;
 use brillianteer_scene::Medium;
+use brillianteer_trace::beam::Beam;
 use glam::{DAffine2, DVec2, DVec4};
 
 /// Where absorption changes a beam's light by more than this part across its outline, the beam is painted in strips.

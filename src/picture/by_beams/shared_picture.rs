@@ -7,16 +7,16 @@
 use super::Subject;
 use super::patches::{Patches, UNEVEN};
 use crate::picture::strips::strips;
-use crate::trace::DispersedRay;
-use crate::trace::beam::{
-    self, BeamEnd, Inside, SharedBeam, SharedBeams, SharedExit, SharedView, SharingOptions,
-};
-use crate::trace::sampling::{SamplePass, colour};
-use crate::trace::shared_tail::SharedTail;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::random_bits::{GAMMA, mixed, unit};
 use brillianteer_math::{Affine, area};
 use brillianteer_scene::Medium;
+use brillianteer_trace::DispersedRay;
+use brillianteer_trace::beam::{
+    self, BeamEnd, Inside, SharedBeam, SharedBeams, SharedExit, SharedView, SharingOptions,
+};
+use brillianteer_trace::sampling::{SamplePass, colour};
+use brillianteer_trace::shared_tail::SharedTail;
 use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use std::cmp::Ordering;
 use std::ops::Range;

@@ -13,13 +13,13 @@ use super::parts::thickness;
 use super::prepared::laid;
 use super::{GlassPane, pane as approximated, plain};
 use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
-use crate::trace::environment::{Backplate, Environment, EnvironmentMap};
-use crate::trace::ray::{ByRays, RayOptions};
-use crate::trace::sampling::{LitScene, Sampling};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Pose};
 use brillianteer_optics::{Dispersion, DispersionError, Illuminant, Material, Strata, encoded_from_linear};
 use brillianteer_scene::{Dome, Film, Instance, Lamp, Light, Mipmap, Panorama, Scene, View};
+use brillianteer_trace::environment::{Backplate, Environment, EnvironmentMap};
+use brillianteer_trace::ray::{ByRays, RayOptions};
+use brillianteer_trace::sampling::{LitScene, Sampling};
 use cost::Sums;
 use glam::DVec2;
 

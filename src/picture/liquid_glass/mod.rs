@@ -30,8 +30,8 @@ pub use on_card::PanesOnCard;
 pub use prepared::{PreparedPane, SeenThrough};
 
 use super::{Linear, NameError};
-use crate::trace::places::place_in_pixel;
 use brillianteer_scene::Panorama;
+use brillianteer_trace::places::place_in_pixel;
 use glam::{DVec2, DVec3, DVec4};
 use outline::{DomePoint, PaneOutline};
 use parts::{RED_AND_BLUE, depth, dispersion, refraction};

@@ -4,8 +4,8 @@ use super::lighting::SurfaceLight;
 use super::parts::thickness;
 use super::{GlassPane, PaneQuality};
 use crate::picture::Linear;
-use crate::trace::gpu::{Gpu, GpuError, PaneData, PaneStage};
 use brillianteer_scene::Panorama;
+use brillianteer_trace::gpu::{Gpu, GpuError, PaneData, PaneStage};
 use glam::Vec3;
 
 /// A background on a graphics card, in front of which panes are drawn. Everything about a pane is data: no pane needs a

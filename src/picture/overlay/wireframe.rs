@@ -1,10 +1,10 @@
 //! The wireframe: edges of stones, drawn as thin even lines.
 
 use super::{Code, lay_over};
-use crate::trace::ray::SceneProbe;
-use crate::trace::sampling::LitScene;
 use brillianteer_math::{Edge, Plane, PosedSolid};
 use brillianteer_scene::Instance;
+use brillianteer_trace::ray::SceneProbe;
+use brillianteer_trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};
 
 /// Width of a line, in pixels.
@@ -134,8 +134,8 @@ fn lay_line(pixel: &mut [u8; 4], distance: f64, shares: [f32; 2]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::ray::Camera;
     use brillianteer_scene::{Projection, View};
+    use brillianteer_trace::ray::Camera;
 
     #[test]
     fn a_part_of_the_way_through_the_picture_is_told_in_space() {

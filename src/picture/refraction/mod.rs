@@ -9,10 +9,10 @@ mod trace;
 
 use super::develop::{exposed, shown};
 use super::{Develop, Linear};
-use crate::trace::environment::backplate_point;
 use brillianteer_math::Basis;
 use brillianteer_optics::Strata;
 use brillianteer_scene::Panorama;
+use brillianteer_trace::environment::backplate_point;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

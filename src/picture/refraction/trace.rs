@@ -2,12 +2,12 @@
 
 use super::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey};
 use crate::picture::{LUMINANCE, Linear};
-use crate::trace::DispersedRay;
-use crate::trace::environment::Environment;
-use crate::trace::ray::{Camera, First, SceneTracer, WaitingRay};
-use crate::trace::sampling::{LitScene, SamplePass, Sampling, colour};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_optics::Stratum;
+use brillianteer_trace::DispersedRay;
+use brillianteer_trace::environment::Environment;
+use brillianteer_trace::ray::{Camera, First, SceneTracer, WaitingRay};
+use brillianteer_trace::sampling::{LitScene, SamplePass, Sampling, colour};
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 

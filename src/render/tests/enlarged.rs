@@ -1,7 +1,7 @@
 //! Rough pictures in full size.
 
 use super::*;
-use crate::trace::ray::SceneProbe;
+use brillianteer_trace::ray::SceneProbe;
 
 #[test]
 fn a_rough_picture_is_enlarged_with_fine_outlines_and_a_fine_background() {

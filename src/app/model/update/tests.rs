@@ -22,7 +22,7 @@ use crate::app::tasks::autosave::Autosave;
 use crate::app::tasks::open;
 use crate::io::Failure;
 use crate::io::cut_file;
-use crate::io::lighting::Lighting;
+use crate::io::lighting;
 use crate::io::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
 
@@ -339,7 +339,7 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
 #[test]
 fn a_coarse_light_is_shown_until_the_whole_one_comes_and_another_light_takes_its_place() {
     let mut bench = Bench::new();
-    let lighting = || Lighting::load("white").unwrap();
+    let lighting = || lighting::load("white").unwrap();
     let loads =
         |tasks: &[Task], light: &str| has(tasks, |t| matches!(t, Task::LoadLight(name) if name == light));
     assert!(loads(&bench.act(Edit::Setting(SettingChange::Light("sunset".to_owned()))), "sunset"));

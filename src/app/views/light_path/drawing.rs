@@ -1,8 +1,8 @@
 //! Draws the stone as a wireframe, and the path of one ray through it.
 
 use super::Reading;
-use crate::trace::ray::{Leaving, Path, Step};
 use brillianteer_math::{Basis, Edge};
+use brillianteer_trace::ray::{Leaving, Path, Step};
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 use glam::{DVec2, DVec3};
 

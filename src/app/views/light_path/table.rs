@@ -1,8 +1,8 @@
 //! The steps of a path as rows of figures.
 
 use super::Reading;
-use crate::trace::ray::{Leaving, Step};
 use brillianteer_math::fixed;
+use brillianteer_trace::ray::{Leaving, Step};
 use egui::{
     Align, Align2, Color32, FontId, Rect, Response, ScrollArea, Sense, StrokeKind, TextStyle, Ui, WidgetInfo,
     accesskit::Role, pos2, vec2,

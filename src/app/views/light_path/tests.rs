@@ -1,7 +1,7 @@
 use super::*;
 use crate::io::cut_file;
-use crate::trace::ray::{Camera, RayOptions, StoneTracer};
 use brillianteer_scene::{ASET_CONE, Backing, Medium, Specimen, View};
+use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};
 use egui::{Event, Key, PointerButton, Pos2, Rect, Shape, Theme, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -1,0 +1,235 @@
+//! Tests of the shaders against their twins in Rust. Without a card, they check that the shaders are valid; with one,
+//! that both give the same numbers.
+
+mod glass;
+mod lamps;
+mod metal;
+mod rings;
+
+use super::Gpu;
+use super::gpu_types;
+use super::pane::pane_source;
+use super::peak::{ARITHMETIC_WGSL, MEMORY_WGSL};
+use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
+use brillianteer_optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
+use glam::DVec3;
+use std::io::Write;
+use wgpu::naga::{front, valid};
+
+#[test]
+fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
+    let kinds = [(ShaderTask::Scope, false), (ShaderTask::Light, false), (ShaderTask::Light, true)];
+    for (facets, (reading, has_metal)) in
+        ShaderSurface::ALL.into_iter().flat_map(|f| kinds.map(|kind| (f, kind)))
+    {
+        let text = source(facets, reading, has_metal);
+        let module = front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+        let mut validator =
+            valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());
+        validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+        let size = |name: &str| {
+            let found = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name));
+            found.and_then(|(_, t)| match t.inner {
+                wgpu::naga::TypeInner::Struct { span, .. } => Some(span as usize),
+                _ => None,
+            })
+        };
+        assert_eq!(size("Frame"), Some(size_of::<gpu_types::Frame>()));
+        if facets == ShaderSurface::Many {
+            assert_eq!(size("Cluster"), Some(size_of::<gpu_types::Cluster>()));
+        }
+        if facets == ShaderSurface::Triangles || has_metal {
+            assert_eq!(size("Triangle"), Some(size_of::<gpu_types::Triangle>()));
+            assert_eq!(size("BvhNode"), Some(size_of::<gpu_types::BvhNode>()));
+        }
+        if matches!(facets, ShaderSurface::Smooth | ShaderSurface::Wavy) {
+            assert_eq!(size("ImplicitSurface"), Some(size_of::<gpu_types::ImplicitSurface>()));
+        }
+        assert_eq!(size("Body"), Some(size_of::<gpu_types::Body>()));
+        assert_eq!(size("Medium"), Some(size_of::<gpu_types::Medium>()));
+        if reading == ShaderTask::Scope {
+            assert_eq!(size("Bands"), Some(size_of::<gpu_types::Bands>()));
+            assert_eq!(size("ScopePixel"), Some(size_of::<gpu_types::ScopePixel>()));
+        } else {
+            assert_eq!(size("Environment"), Some(size_of::<gpu_types::Environment>()));
+            assert_eq!(size("Lamp"), Some(size_of::<gpu_types::Lamp>()));
+            assert_eq!(size("Response"), Some(size_of::<gpu_types::Response>()));
+            assert_eq!(size("RadiancePixel"), Some(size_of::<gpu_types::RadiancePixel>()));
+        }
+    }
+}
+
+#[test]
+fn the_shaders_that_measure_a_card_or_draw_panes_are_valid() {
+    for text in [ARITHMETIC_WGSL, MEMORY_WGSL, &pane_source()] {
+        let module = front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+        let mut validator =
+            valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());
+        validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+    }
+}
+
+#[test]
+fn a_cards_peak_is_beyond_what_a_tenth_of_a_core_does() {
+    let Some(gpu) = card("a_cards_peak_is_beyond_what_a_tenth_of_a_core_does") else { return };
+    let peak = gpu.peak().unwrap();
+    // Above these bounds, a compiler has optimised the work away.
+    assert!((1e8..1e15).contains(&peak.flops), "{peak:?}");
+    assert!((1e7..1e14).contains(&peak.bytes_per_second), "{peak:?}");
+    assert!(peak.launch_s > 0.0 && peak.launch_s < 1.0, "{peak:?}");
+    // No dispatch of these measurements belongs to a picture.
+    assert_eq!(gpu.take_totals().count, 0);
+}
+
+/// A shader that takes rays at a surface, as (cos_i, eta, turn of the axes, unused), and returns all results of the
+/// optics for each.
+const MEETING_WGSL: &str = "
+@group(0) @binding(0) var<storage, read> given: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 7>>;
+
+const OF_D = vec3f(0.03, -0.01, 0.02);
+const OF_N = vec3f(0.02, 0.04, 0.0);
+
+@compute @workgroup_size(64)
+fn meeting(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= arrayLength(&given) {
+        return;
+    }
+    let cos_i = given[id.x].x;
+    let eta = given[id.x].y;
+    let f = fresnel(cos_i, eta);
+    let d = vec3f(sqrt(max(1.0 - cos_i * cos_i, 0.0)), 0.0, -cos_i);
+    let n = vec3f(0.0, 0.0, 1.0);
+    let light = turned(vec4f(0.6, 0.25, 0.1, -0.2), cos(given[id.x].z), sin(given[id.x].z));
+    found[id.x] = array<vec4f, 7>(
+        vec4f(f.r_s, f.r_p),
+        vec4f(reflect_ray(d, n, cos_i), f.cos_t),
+        vec4f(refract_ray(d, n, eta, cos_i, f.cos_t), passed(light, f)),
+        light,
+        reflected(light, f),
+        // Near the critical angle the change grows beyond what f32 holds.
+        vec4f(refracted_change(d, n, eta, cos_i, f.cos_t, OF_D, OF_N, 0.05) * f.cos_t * f.cos_t, 0.0),
+        vec4f(reflected_change(d, n, OF_D, OF_N), 0.0),
+    );
+}
+";
+
+/// Computes the same in f64, with the coherency matrix as J J† of fields, written out independently.
+fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
+    let f = fresnel(cos_i, eta);
+    let (d, n) = (DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i), DVec3::Z);
+    let cos_t = f.cos_t.unwrap_or(0.0);
+    let (up, on) = (reflect(d, n, cos_i), refract(d, n, eta, (cos_i, cos_t)));
+    let [ss, pp, re, im] = [0.6, 0.25, 0.1, -0.2];
+    let (sin, cos) = turn.sin_cos();
+    let light = [
+        cos * cos * ss + sin * sin * pp + 2.0 * sin * cos * re,
+        sin * sin * ss + cos * cos * pp - 2.0 * sin * cos * re,
+        (cos * cos - sin * sin) * re + sin * cos * (pp - ss),
+        im,
+    ];
+    let (of_d, of_n) = (DVec3::new(0.03, -0.01, 0.02), DVec3::new(0.02, 0.04, 0.0));
+    let moved = refracted_change(d, n, eta, (cos_i, cos_t.max(1e-9)), (of_d, of_n, 0.05)) * cos_t * cos_t;
+    let mirrored = reflected_change(d, n, (of_d, of_n));
+    let Fresnel { r_s, r_p, .. } = f;
+    let cross = r_s * r_p.conj() * num_complex::Complex64::new(light[2], light[3]);
+    let (s, p) = (f.reflectance_s(), f.reflectance_p());
+    [
+        [r_s.re, r_s.im, r_p.re, r_p.im],
+        [up.x, up.y, up.z, cos_t],
+        [on.x, on.y, on.z, light[0] * (1.0 - s) + light[1] * (1.0 - p)],
+        light,
+        [light[0] * s, light[1] * p, cross.re, cross.im],
+        [moved.x, moved.y, moved.z, 0.0],
+        [mirrored.x, mirrored.y, mirrored.z, 0.0],
+    ]
+}
+
+#[test]
+fn the_shaders_optics_are_those_of_the_library() {
+    let Some(gpu) = card("the_shaders_optics_are_those_of_the_library") else { return };
+    let etas = [1.0 / 2.4175, 0.75, 1.33, 1.77, 2.4175, 2.9];
+    let given: Vec<[f32; 4]> =
+        (0..6000).map(|k| [(k / 6) as f32 / 999.0, etas[k % 6], 0.001 * k as f32, 0.0]).collect();
+    let text = include_str!("../../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
+    let found = run(&gpu, text, &given, None);
+    // The tolerance is the error of the root of 1e-3 in f32.
+    let (count, largest) = compared(&given, &found, 1.0);
+    assert!(count > 5900 && largest < 5e-5, "{count} compared, off by {largest:e}");
+    let mutant = compared(&given, &found, 1.001).1;
+    assert!(mutant > 1e-3, "another index makes only {mutant:e}");
+}
+
+/// Compares the card's results with the exact ones at `factor` times the index. Returns the number of comparisons and
+/// the largest difference.
+fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f64) {
+    let (mut compared, mut largest) = (0, 0.0_f64);
+    for (given, found) in given.iter().zip(found) {
+        let [cos_i, eta, turn, _] = given.map(f64::from);
+        let eta = eta * factor;
+        let squared = (1.0 - eta * eta) + (eta * cos_i).powi(2);
+        // The root of a number near 0 has few digits in f32.
+        if squared.abs() < 1e-3 {
+            continue;
+        }
+        let exact = meeting(cos_i, eta, turn);
+        let both = found.iter().flatten().zip(exact.iter().flatten()).enumerate();
+        // Where reflection is total no ray is refracted, and the numbers for one are undefined.
+        let meant = both.filter(|(k, _)| squared > 0.0 || !((8..11).contains(k) || (20..23).contains(k)));
+        largest = meant.map(|(_, (a, b))| (f64::from(*a) - b).abs()).fold(largest, f64::max);
+        compared += 1;
+    }
+    (compared, largest)
+}
+
+/// Opens the card. Where there is none, it reports that the test is skipped, or panics if a card is required.
+pub(super) fn card(test: &str) -> Option<Gpu> {
+    match Gpu::open() {
+        Ok(gpu) => Some(gpu),
+        Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{test}: {error}"),
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {error}");
+            None
+        }
+    }
+}
+
+/// Runs a shader with one entry point on each set of four numbers, with other data where it needs them, and returns
+/// its results.
+fn run<T: bytemuck::Pod>(gpu: &Gpu, text: String, given: &[[f32; 4]], other: Option<&[u8]>) -> Vec<T> {
+    let device = &gpu.device;
+    let pipeline = compiled(device, text);
+    let input = gpu.buffer("given", bytemuck::cast_slice(given), wgpu::BufferUsages::STORAGE);
+    let size = (given.len() * size_of::<T>()) as u64;
+    let buffer = |usage| {
+        device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
+    };
+    let output = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+    let back = buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+    let other = other.map(|bytes| gpu.buffer("other", bytes, wgpu::BufferUsages::STORAGE));
+    let buffers = [Some(&input), Some(&output), other.as_ref()];
+    let entries: Vec<_> = buffers
+        .into_iter()
+        .flatten()
+        .enumerate()
+        .map(|(k, b)| wgpu::BindGroupEntry { binding: k as u32, resource: b.as_entire_binding() })
+        .collect();
+    let bound = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &entries,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &bound, &[]);
+        pass.dispatch_workgroups(given.len().div_ceil(64) as u32, 1, 1);
+    }
+    encoder.copy_buffer_to_buffer(&output, 0, &back, 0, size);
+    gpu.queue.submit([encoder.finish()]);
+    back.map_async(wgpu::MapMode::Read, .., |_| {});
+    gpu.wait().expect("the card does its work");
+    let mapped = back.get_mapped_range(..).expect("mapped");
+    bytemuck::pod_collect_to_vec(&mapped)
+}
