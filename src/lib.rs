@@ -38,8 +38,6 @@ pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod io;
-pub mod measure;
-pub mod picture;
 pub mod render;
 pub mod search;
 
@@ -47,7 +45,9 @@ pub mod search;
 pub use brillianteer_base as base;
 pub use brillianteer_cut as cut;
 pub use brillianteer_math as math;
+pub use brillianteer_measure as measure;
 pub use brillianteer_optics as optics;
+pub use brillianteer_picture as picture;
 pub use brillianteer_scene as scene;
 pub use brillianteer_trace as trace;
 pub use glam;

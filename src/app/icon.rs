@@ -2,7 +2,6 @@
 
 use crate::app::model::document::Document;
 use crate::io::rasterize_clear;
-use crate::picture;
 use egui::IconData;
 
 /// The pixels of the icon along each side; systems make smaller icons of it.
@@ -11,7 +10,7 @@ const SIDE: u32 = 256;
 /// Returns the icon as a drawing in SVG.
 fn drawing() -> Option<String> {
     let first = Document::first().ok()?;
-    Some(picture::icon(first.specimen().stone().ok()?).to_string())
+    Some(brillianteer_picture::icon(first.specimen().stone().ok()?).to_string())
 }
 
 /// Returns the icon as pixels; `None` only where the program itself is broken.

@@ -1,7 +1,7 @@
 //! The pane of liquid glass over the background of a view: its stored settings and its place in a picture.
 
-use crate::picture::liquid_glass::{GlassPane, LightFrom, PaneQuality};
 use brillianteer_optics::linear_from_encoded;
+use brillianteer_picture::liquid_glass::{GlassPane, LightFrom, PaneQuality};
 use glam::{DVec2, DVec4};
 use serde::{Deserialize, Serialize};
 

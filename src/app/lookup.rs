@@ -1,7 +1,7 @@
 //! The backplate of pictures of backgrounds behind glass, and the conversion of their light for the screen.
 
 use crate::io::background::BackgroundRef;
-use crate::picture::{Develop, Linear, Pattern, Tone, develop};
+use brillianteer_picture::{Develop, Linear, Pattern, Tone, develop};
 use egui::ColorImage;
 
 /// The backplate where a picture needs one and none is chosen.

@@ -17,8 +17,8 @@ mod sight;
 #[cfg(test)]
 mod tests;
 
-use crate::picture::DrawnMarks;
 use brillianteer_cut::{Cut, ProfileHandle};
+use brillianteer_picture::DrawnMarks;
 use brillianteer_scene::Stone;
 use egui::accesskit::Role;
 use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Sense, Tooltip, Ui, WidgetInfo};

@@ -1,7 +1,7 @@
 //! The pictures and drawings that a view can show.
 
 use crate::app::described::described;
-use crate::picture::{Picture, Scoped, named};
+use brillianteer_picture::{Picture, Scoped, named};
 use brillianteer_scene::Side;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use crate::app::glyphs;
 use crate::app::studio::Paper;
-use crate::picture::Inks;
+use brillianteer_picture::Inks;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 
 /// The colour of a finding of the audit: bright on any picture, and different from that of a selected tier.

@@ -92,8 +92,8 @@ fn exists(option: Option<&str>, word: &str) -> bool {
     match option {
         Some("--material") => word.parse::<f64>().is_ok() || brillianteer_optics::material(word).is_ok(),
         Some("--light") => is_file || brillianteer_scene::light(word).is_some(),
-        Some("--views") => word.split(',').all(|name| crate::picture::named(name).is_some()),
-        Some("--scope") => is_file || crate::picture::named(word).is_some(),
+        Some("--views") => word.split(',').all(|name| brillianteer_picture::named(name).is_some()),
+        Some("--scope") => is_file || brillianteer_picture::named(word).is_some(),
         Some(_) => true,
         None => {
             is_file || library::cut(word).is_some() || library::scene(word).is_some() || word == "designs"

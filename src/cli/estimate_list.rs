@@ -2,9 +2,9 @@
 
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
-use crate::measure::brilliant_proportions;
 use brillianteer_cut::{ClassEstimate, Unit};
 use brillianteer_math::fixed;
+use brillianteer_measure::brilliant_proportions;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -6,7 +6,7 @@ use crate::io::refraction::{
     Coding, MOST_MEGABYTES, Page, diffuse_path, paths, takes, write_diffuse, write_page, write_places,
 };
 use crate::io::{Failure, is_standard, write_rgba_png};
-use crate::picture::{Develop, RefractionMap, Tone, develop, refract};
+use brillianteer_picture::{Develop, RefractionMap, Tone, develop, refract};
 use brillianteer_scene::Panorama;
 use clap::ValueEnum;
 use glam::DVec2;

@@ -9,7 +9,7 @@ use super::specimen::stem;
 use crate::io::background::BackgroundRef;
 use crate::io::refraction::{MOST_MAP_PIXELS, Template, read, write_template};
 use crate::io::{Failure, is_standard};
-use crate::picture::Background;
+use brillianteer_picture::Background;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 

@@ -7,7 +7,7 @@ use super::specimen::stem;
 use super::specimen_options::SpecimenOptions;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
 use crate::io::{Failure, is_standard, note_of_letters};
-use crate::picture::PaperSize;
+use brillianteer_picture::PaperSize;
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;

@@ -13,7 +13,7 @@ use crate::io::plot::COLOURS_OF_CURVES;
 use crate::io::{
     AnimationFormat, Failure, Frames, check_writable, is_standard, write_animation, write_rgba_png,
 };
-use crate::measure::{MEASURES_HEAD_DEG, MeasureName};
+use brillianteer_measure::{MEASURES_HEAD_DEG, MeasureName};
 use brillianteer_scene::Viewpoint;
 use clap::Args;
 use std::path::PathBuf;

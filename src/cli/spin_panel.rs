@@ -8,10 +8,10 @@ use super::sweep_plot::UNIT;
 use crate::io::export::caption_pixels;
 use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
 use crate::io::{Failure, rasterize, with_cover};
-use crate::measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use brillianteer_base::Watch;
 use brillianteer_cut::Design;
+use brillianteer_measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use brillianteer_optics::line;
 use brillianteer_scene::Lean;
 

@@ -77,7 +77,7 @@ pub struct Animation<'a> {
 
 impl Animation<'_> {
     /// Adds a frame: red, green, blue and cover (alpha) of each pixel, not premultiplied, as
-    /// [`develop`](crate::picture::develop()) gives them.
+    /// [`develop`](brillianteer_picture::develop()) gives them.
     ///
     /// # Errors
     /// Fails where the file system refuses, the frame has another size, or there is one frame too many.

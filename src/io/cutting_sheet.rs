@@ -1,8 +1,8 @@
 //! Writes cutters' sheets as SVG, PDF and PNG.
 
 use super::{DrawingError, Failure, WriteError, in_tiers, pdf, rasterize, write as write_whole, write_png};
-use crate::picture::{CuttingSheet, PaperSize, sheet_pages};
 use brillianteer_cut::{Cut, TierZone, Tiers};
+use brillianteer_picture::{CuttingSheet, PaperSize, sheet_pages};
 use brillianteer_scene::{Specimen, Stone};
 use glam::DVec3;
 use std::path::{Path, PathBuf};

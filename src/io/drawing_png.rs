@@ -135,9 +135,9 @@ pub fn note_of_letters<'t>(texts: impl IntoIterator<Item = &'t str>) -> Option<S
 mod tests {
     use super::legible::assert_legible;
     use super::*;
-    use crate::picture::{DiagramStyle, Inks, diagram, profile};
     use brillianteer_cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use brillianteer_math::Plane;
+    use brillianteer_picture::{DiagramStyle, Inks, diagram, profile};
     use brillianteer_scene::Stone;
     use glam::DVec3;
 

@@ -1,8 +1,8 @@
 //! Writes OpenEXR: the values of every pixel in floating point, with a channel for each part of the light.
 
 use super::atomic::{WriteError, write};
-use crate::picture::{Layer, paint};
 use brillianteer_base::Watch;
+use brillianteer_picture::{Layer, paint};
 use brillianteer_scene::Film;
 use exr::block::writer::{ChunksWriter, ParallelBlocksCompressor};
 use exr::block::{BlockIndex, UncompressedBlock};

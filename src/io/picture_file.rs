@@ -5,10 +5,10 @@ use super::atomic::{WriteError, write};
 use super::exr;
 use super::png::{PngFile, encoder};
 use super::stored_light::{MOST_HELD, StoredLight};
-use crate::picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows, fxaa};
 #[cfg(feature = "exr")]
 use ::exr::{math::Vec2, meta::attribute::Chromaticities};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows, fxaa};
 use brillianteer_trace::sampling::LitScene;
 use std::path::Path;
 
@@ -61,7 +61,7 @@ pub(super) fn without_cover(rgba: &[u8]) -> Vec<u8> {
 pub struct Finish<'a> {
     /// The settings by which the light is developed.
     pub develop: Develop,
-    /// True where [`fxaa`](crate::picture::fxaa()) smooths the developed picture, which is then held as a whole.
+    /// True where [`fxaa`](brillianteer_picture::fxaa()) smooths the developed picture, which is then held as a whole.
     pub fxaa: bool,
     /// The overlays that are drawn over it.
     pub overlays: &'a [Overlay],
@@ -71,7 +71,7 @@ pub struct Finish<'a> {
 
 impl Finish<'_> {
     /// Develops a picture and draws the overlays over it, some rows at a time; calls `each` with their pixels as
-    /// [`develop`](crate::picture::develop()) makes them, from top to bottom.
+    /// [`develop`](brillianteer_picture::develop()) makes them, from top to bottom.
     ///
     /// # Errors
     /// The errors of `each`, those of reading the light, and [`Stopped`] when `watch` stops the work.
@@ -181,9 +181,9 @@ pub(super) fn unfit(pixels: usize, (width, height): (u32, u32)) -> std::io::Erro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::{Linear, develop};
     use ::exr::prelude::{MetaData, read_first_rgba_layer_from_file};
     use brillianteer_base::unwatched;
+    use brillianteer_picture::{Linear, develop};
 
     /// A picture that is not made of whole tiles.
     fn picture() -> Linear {

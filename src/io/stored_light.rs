@@ -1,7 +1,7 @@
 //! The linear light of a picture between tracing and writing: in memory, or in a temporary file where it is large.
 
 use super::atomic::WriteError;
-use crate::picture::LightRows;
+use brillianteer_picture::LightRows;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};

@@ -2,10 +2,10 @@
 
 use super::job::{Job, MapProduct, PaneProduct};
 use super::renderer::{Output, RenderError};
-use crate::picture::RefractionMap;
-use crate::picture::liquid_glass::{PaneLighting, compare, surroundings, traced};
 use brillianteer_base::Watch;
 use brillianteer_optics::{Illuminant, Strata};
+use brillianteer_picture::RefractionMap;
+use brillianteer_picture::liquid_glass::{PaneLighting, compare, surroundings, traced};
 use brillianteer_trace::environment::EnvironmentMap;
 
 impl MapProduct {

@@ -2,10 +2,10 @@
 
 use super::sweep::{Sweep, SweepError, SweptStone, VariedDesign, with_numbers};
 use super::sweep_key::SweepKey;
-use crate::measure::{MeasureDerivatives, MeasureName};
 use brillianteer_base::Watch;
 use brillianteer_cut::{Cut, Design, ScaleError, ScaledSide, SideSlope, Unit};
 use brillianteer_math::{Facet, Plane};
+use brillianteer_measure::{MeasureDerivatives, MeasureName};
 use brillianteer_scene::{Specimen, SpecimenError, Stone};
 use glam::DVec3;
 use std::collections::HashMap;

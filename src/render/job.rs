@@ -3,10 +3,10 @@
 
 use super::Wanted;
 use super::surroundings::Surroundings;
-use crate::measure::{Bounds, MeasureName, MeasureSettings};
-use crate::picture::liquid_glass::GlassPane;
-use crate::picture::{Backdrop, Linear, Survey, enlarged};
+use brillianteer_measure::{Bounds, MeasureName, MeasureSettings};
 use brillianteer_optics::Strata;
+use brillianteer_picture::liquid_glass::GlassPane;
+use brillianteer_picture::{Backdrop, Linear, Survey, enlarged};
 use brillianteer_scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
 use brillianteer_trace::beam::BeamOptions;
 use brillianteer_trace::ray::RayOptions;

@@ -4,10 +4,10 @@ use super::card::Backend;
 use super::job::{Job, LightProduct, Steps};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
-use crate::picture::spectral::{EachRow, Remainder, expose_rows, seen};
-use crate::picture::{ByBeams, Linear};
 use brillianteer_base::Watch;
 use brillianteer_optics::Strata;
+use brillianteer_picture::spectral::{EachRow, Remainder, expose_rows, seen};
+use brillianteer_picture::{ByBeams, Linear};
 #[cfg(feature = "gpu")]
 use brillianteer_trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 use brillianteer_trace::ray::ByRays;

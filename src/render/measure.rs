@@ -5,9 +5,9 @@ use super::check::{LATTICES, OutOfRange, demand, demand_count, demand_error, pos
 use super::job::{FiguresProduct, Job, Product, Quality};
 use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
-use crate::measure::{Bounds, Measured};
 use brillianteer_base::unwatched;
 use brillianteer_cut::Design;
+use brillianteer_measure::{Bounds, Measured};
 use brillianteer_optics::{DispersionError, INDICES, INDICES_IN_WORDS, line};
 use brillianteer_scene::{
     ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,

@@ -4,11 +4,11 @@ use super::beam_cache::BeamCache;
 use super::card::{Backend, Card};
 use super::job::{Job, Product, Reading, Steps};
 use super::plan::{Demands, Plan, Unfit, plan};
-use crate::measure::{LATTICE, LightMeasures, MeasureDerivatives, Measured};
-use crate::picture::liquid_glass::{Cost, PaneError};
-use crate::picture::spectral::Remainder;
-use crate::picture::{Carried, Linear, RefractionMap, Rows};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_measure::{LATTICE, LightMeasures, MeasureDerivatives, Measured};
+use brillianteer_picture::liquid_glass::{Cost, PaneError};
+use brillianteer_picture::spectral::Remainder;
+use brillianteer_picture::{Carried, Linear, RefractionMap, Rows};
 use brillianteer_trace::beam::Beams;
 #[cfg(feature = "gpu")]
 use brillianteer_trace::gpu::GpuError;

@@ -4,10 +4,10 @@ use super::card::Backend;
 use super::job::{FiguresProduct, Job, MeasuresProduct, Quality, Reading, ScopeProduct};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer, TakenMeasures};
-use crate::measure::{self, Figures, LightMeasures, Scintillation, measured, rocked_views};
-use crate::picture::{Layer, Rows, by_rays, paint};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::{Polytope, SolidRef};
+use brillianteer_measure::{Figures, LightMeasures, Scintillation, measured, rocked_views};
+use brillianteer_picture::{Layer, Rows, by_rays, paint};
 use brillianteer_scene::{Body, Medium, Scope};
 use brillianteer_trace::ScopeShot;
 use brillianteer_trace::beam::{self, BeamOptions, Beams, SumOptions};
@@ -50,7 +50,7 @@ impl Renderer {
         };
         match backend {
             #[cfg(feature = "gpu")]
-            Backend::Card(gpu) => crate::picture::by_gpu::trace(gpu, &shot, *glare, watch, hand_out)?,
+            Backend::Card(gpu) => brillianteer_picture::by_gpu::trace(gpu, &shot, *glare, watch, hand_out)?,
             _ => by_rays::trace(&shot, *glare, watch, hand_out)?,
         }
         Ok(Output::Scope(None))
@@ -135,13 +135,15 @@ impl Renderer {
                     Some(_) => None,
                 };
                 match made {
-                    Some(beams) => Ok(measure::by_beams(&beams, scope)),
+                    Some(beams) => Ok(brillianteer_measure::by_beams(&beams, scope)),
                     None => Ok(job.summed(polytope, *medium, scope, watch)?),
                 }
             }
-            Backend::Rays => Ok(measure::by_rays(solid, *medium, view, scope, manner, watch)?),
+            Backend::Rays => Ok(brillianteer_measure::by_rays(solid, *medium, view, scope, manner, watch)?),
             #[cfg(feature = "gpu")]
-            Backend::Card(gpu) => measure::by_gpu::<Halt<E>>(gpu, solid, *medium, view, scope, manner, watch),
+            Backend::Card(gpu) => {
+                brillianteer_measure::by_gpu::<Halt<E>>(gpu, solid, *medium, view, scope, manner, watch)
+            }
         })?;
         Ok(Output::Figures(Box::new(measured)))
     }
@@ -168,8 +170,10 @@ impl Job {
         let of = SumOptions { scope, standard_error };
         let summed = beam::sum_up(polytope, medium, &self.view, &beams, of, &share(0.0))?;
         match standard_error {
-            Some(error) => Ok(measure::by_beams_and_rays(polytope, &summed, error, &share(1.0))?),
-            None => Ok(measure::by_summed_beams(&summed)),
+            Some(error) => {
+                Ok(brillianteer_measure::by_beams_and_rays(polytope, &summed, error, &share(1.0))?)
+            }
+            None => Ok(brillianteer_measure::by_summed_beams(&summed)),
         }
     }
 

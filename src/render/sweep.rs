@@ -4,12 +4,12 @@ use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::sweep_key::{PERCENT_OF_SIDE, SweepKey};
 use super::{Card, Wanted};
-use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use brillianteer_base::Watch;
 use brillianteer_cut::{
     Cut, Design, DesignError, MachineSetting, MaterialError, MaterialRef, MeetError, Proportion, ScaleError,
     scaled,
 };
+use brillianteer_measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use brillianteer_optics::{DispersionError, INDICES, Material, line};
 use brillianteer_scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
 use std::fmt;

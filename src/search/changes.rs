@@ -4,7 +4,7 @@ use super::appraisal::{Appraisal, GoalValue};
 use super::goal::GoalMaterial;
 use super::others::OtherMeasure;
 use super::outcome::SearchOutcome;
-use crate::measure::{Interval, MeasureName};
+use brillianteer_measure::{Interval, MeasureName};
 use std::cmp::Ordering;
 
 /// Changes of a measure below this part of the face count as none.

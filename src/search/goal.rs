@@ -1,7 +1,7 @@
 //! Goals: the measures of a search, its limits, and the numbers that may change, in the form of a goal file.
 
-use crate::measure::MeasureName;
 use brillianteer_cut::MaterialRef;
+use brillianteer_measure::MeasureName;
 use brillianteer_scene::DomeLight;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -3,10 +3,10 @@
 
 use super::goal::{AtLeastAtMost, Goal};
 use super::limits::{GIRDLE, LOWER_CLASS, NEW_FINDINGS, SHORTEST_EDGE, SMALLEST_FACET};
-use crate::measure::brilliant_proportions;
 use brillianteer_cut::{
     Audit, ClassEstimate, CutClass, FindingKind, NEAR_MISS, SMALL_FACET, SheetFigures, SmallestParts,
 };
+use brillianteer_measure::brilliant_proportions;
 use brillianteer_scene::{Specimen, Stone};
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 
 use super::goal::{Goal, GoalMaterial, GoalMeasure};
 use super::{AtLeastAtMost, OneOrMore};
-use crate::measure::MeasureName;
+use brillianteer_measure::MeasureName;
 use brillianteer_scene::Viewpoint;
 
 /// A material and view in which measures are taken together.

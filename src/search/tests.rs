@@ -4,12 +4,12 @@ use super::{
     AtLeastAtMost, DesignSearch, Goal, GoalMaterial, Objective, OneOrMore, SearchError, SearchOptions,
     SearchProgress, VariedNumber, estimated_classes,
 };
-use crate::measure::MeasureSettings;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
 use brillianteer_base::{Stopped, unwatched};
 use brillianteer_cut::{
     Crown, Cut, CutClass, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
 };
+use brillianteer_measure::MeasureSettings;
 use brillianteer_optics::line;
 use brillianteer_scene::{DomeLight, Viewpoint};
 use std::ops::ControlFlow;

@@ -3,7 +3,7 @@
 use crate::app::model::export_sheet::SheetChoice;
 use crate::app::panels::rows::spoken;
 use crate::io::cutting_sheet::SheetFormat;
-use crate::picture::PaperSize;
+use brillianteer_picture::PaperSize;
 use egui::{ComboBox, Ui};
 
 /// The width of the choices, points.

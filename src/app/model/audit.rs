@@ -1,7 +1,7 @@
 //! The audit of the stone in sight: its findings, and the selected one.
 
-use crate::picture::DrawnMarks;
 use brillianteer_cut::{Audit, Finding};
+use brillianteer_picture::DrawnMarks;
 use brillianteer_scene::{Specimen, Stone};
 use std::sync::Arc;
 

@@ -3,7 +3,7 @@
 use super::export::ExportPlan;
 use crate::io::Failure;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, files, write};
-use crate::picture::PaperSize;
+use brillianteer_picture::PaperSize;
 use std::path::PathBuf;
 
 /// The choices of the cutter's sheet in the export dialog.

@@ -1,7 +1,7 @@
 //! Figures that have been measured.
 
 use crate::app::studio::{FiguresOrder, Grade, Tilts, Which};
-use crate::measure::Figures;
+use brillianteer_measure::Figures;
 use std::collections::HashMap;
 
 /// Figures on the screen, with the order that they answer and their grade.

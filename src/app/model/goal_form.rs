@@ -2,10 +2,10 @@
 //! change.
 
 use super::measure_map::MapAxis;
-use crate::measure::measure_words;
 use crate::render::SweepKey;
 use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
 use brillianteer_cut::{Cut, Proportion};
+use brillianteer_measure::measure_words;
 use std::collections::BTreeMap;
 
 /// The proportions that may change at first, where a cut has them.
@@ -209,7 +209,7 @@ impl GoalForm {
     /// Adds the first measure that has no weight yet.
     pub fn add_measure(&mut self) {
         let all = measure_words::all();
-        let is_free = |name: &&crate::measure::MeasureName| {
+        let is_free = |name: &&brillianteer_measure::MeasureName| {
             self.goal.measure.iter().all(|measure| measure.of != **name)
         };
         if let Some(of) = all.iter().find(is_free).or(all.first()) {
@@ -247,7 +247,7 @@ impl NumberChoice {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
-    use crate::measure::MeasureName;
+    use brillianteer_measure::MeasureName;
 
     fn form() -> (GoalForm, Cut) {
         let cut = Document::first().unwrap().work.design.cut;

@@ -1,9 +1,9 @@
 //! A sweep that grows: its order, and the points that have been answered.
 
 use crate::app::studio::{SweepOrder, SweptPoint};
-use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::render::{Sweep, SweepAxis, SweepError, SweptStone};
 use brillianteer_cut::Design;
+use brillianteer_measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use brillianteer_optics::line;
 use brillianteer_scene::Viewpoint;
 use std::sync::Arc;

@@ -4,7 +4,7 @@ use super::Model;
 use super::motion::WaveCache;
 use crate::app::shows::Shows;
 use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, SweepOrder, Which};
-use crate::picture::DrawnMarks;
+use brillianteer_picture::DrawnMarks;
 use brillianteer_scene::{Companions, Pose, Side, Specimen, View};
 use std::sync::Arc;
 

@@ -24,7 +24,7 @@ use super::workspace::Workspace;
 use crate::app::studio::{Order, ShotLight};
 use crate::io::Failure;
 use crate::io::lighting;
-use crate::picture::liquid_glass::LightFrom;
+use brillianteer_picture::liquid_glass::LightFrom;
 use brillianteer_scene::RingPlan;
 use glam::DVec2;
 use std::path::PathBuf;

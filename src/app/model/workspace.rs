@@ -3,7 +3,7 @@
 use super::cutting::CuttingProgress;
 use crate::app::model::eye::Eye;
 use crate::app::shows::Shows;
-use crate::picture::Overlay;
+use brillianteer_picture::Overlay;
 use brillianteer_scene::{Glare, Projection, View};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};

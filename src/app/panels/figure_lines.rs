@@ -3,8 +3,8 @@
 use crate::app::model::figures::ShownFigures;
 use crate::app::model::workspace::Workspace;
 use crate::app::studio::Grade;
-use crate::measure::Figures;
-use crate::picture::Scoped;
+use brillianteer_measure::Figures;
+use brillianteer_picture::Scoped;
 use brillianteer_scene::{Glare, Scope};
 
 /// A figure that the panel shows.
@@ -215,8 +215,8 @@ mod tests {
     use super::*;
     use crate::app::model::document::Document;
     use crate::app::studio::FiguresOrder;
-    use crate::measure::by_beams;
     use brillianteer_base::unwatched;
+    use brillianteer_measure::by_beams;
     use brillianteer_optics::line;
     use brillianteer_scene::View;
     use brillianteer_trace::beam;

@@ -144,8 +144,8 @@ fn quoted(cell: &str) -> String {
 mod tests {
     use super::*;
     use crate::app::panels::figure_lines::{TOTALS, ZONES};
-    use crate::measure::by_beams;
     use brillianteer_base::unwatched;
+    use brillianteer_measure::by_beams;
     use brillianteer_scene::{ASET_CONE, Backing, Scope, View};
     use brillianteer_trace::beam;
 

@@ -2,7 +2,7 @@
 //! frame.
 
 use crate::io::plot::{PlotAxis, levels, lines};
-use crate::measure::MeasureName;
+use brillianteer_measure::MeasureName;
 use egui::{Context, Id};
 use std::ops::Range;
 use std::sync::Arc;

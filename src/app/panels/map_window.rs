@@ -6,8 +6,8 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
 use crate::app::scrolled::scrolled;
-use crate::measure::measure_words;
 use brillianteer_cut::{Cut, Design};
+use brillianteer_measure::measure_words;
 use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.

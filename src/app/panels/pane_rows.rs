@@ -7,7 +7,7 @@ use crate::app::model::render_settings::SettingChange;
 use crate::app::panels::row_focus;
 use crate::app::panels::rows::{ChoiceRow, NUMBER, Row, control_width, explain, named_with_reset};
 use crate::app::shows::Shows;
-use crate::picture::liquid_glass::PaneQuality;
+use brillianteer_picture::liquid_glass::PaneQuality;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 

@@ -11,7 +11,7 @@ use crate::app::model::command::Command;
 use crate::app::model::cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState};
 use crate::app::model::goal_form::GoalForm;
 use crate::app::theme;
-use crate::measure::measure_words;
+use brillianteer_measure::measure_words;
 use egui::{
     Button, Context, Pos2, ProgressBar, RichText, ScrollArea, TextStyle, Ui, Vec2, Window, pos2, vec2,
 };

@@ -4,7 +4,7 @@ use super::rows::ChoiceRow;
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
-use crate::measure::{Interval, measure_words};
+use brillianteer_measure::{Interval, measure_words};
 use egui::{Color32, RichText, Ui};
 use egui_plot::{FilledArea, GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints};
 

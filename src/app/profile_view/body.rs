@@ -4,8 +4,8 @@ use super::ink::ProfileInks;
 use super::sight::ProfileProjection;
 use crate::app::polygons::{closed_line, fill};
 use crate::app::theme::FOUND;
-use crate::picture::DrawnMarks;
 use brillianteer_math::{Basis, Facet, hull};
+use brillianteer_picture::DrawnMarks;
 use brillianteer_scene::Stone;
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 

@@ -4,8 +4,8 @@ use super::grips::Grip;
 use super::handle::{Handle, percent_of_radius};
 use super::sight::{ProfileBox, ProfileProjection};
 use crate::app::value_grid::ValueGrid;
-use crate::picture::profile::Dimensions;
 use brillianteer_cut::{Cut, ProfileHandle};
+use brillianteer_picture::profile::Dimensions;
 use egui::{Pos2, Vec2};
 use glam::DVec2;
 

@@ -3,11 +3,11 @@
 //! Places are in girdle radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
 use crate::app::value_grid::ValueGrid;
-use crate::picture::profile::{Dimensions, Span};
 use brillianteer_cut::ProfileHandle::{
     self, CrownSlope, CuletEdge, GirdleLower, GirdleUpper, PavilionSlope, PavilionTip, TableEdge, TableLine,
 };
 use brillianteer_cut::{Cut, Proportion};
+use brillianteer_picture::profile::{Dimensions, Span};
 use egui::CursorIcon;
 use glam::DVec2;
 

@@ -2,9 +2,9 @@
 
 use super::sheet::{About, BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::ProfileProjection;
-use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
-use crate::picture::profile::{Dimensions, Span, percent, spread};
 use brillianteer_cut::{Cut, ProfileHandle};
+use brillianteer_picture::profile::brilliant::{lower_half_ends, star_ends};
+use brillianteer_picture::profile::{Dimensions, Span, percent, spread};
 use egui::epaint::MarginF32;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
@@ -254,9 +254,9 @@ mod tests {
     use super::super::body::ProfileBody;
     use super::super::sight::{ProfileBox, room};
     use super::*;
-    use crate::picture::profile::brilliant::BRILLIANT_BASIS;
     use crate::random;
     use brillianteer_cut::{Crown, RoundBrilliant, TOLKOWSKY};
+    use brillianteer_picture::profile::brilliant::BRILLIANT_BASIS;
     use brillianteer_scene::Stone;
     use proptest::prelude::*;
 

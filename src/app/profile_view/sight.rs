@@ -1,6 +1,6 @@
 //! The projection from the profile's plane to the screen, and the box of the plane that it shows.
 
-use crate::picture::profile::Dimensions;
+use brillianteer_picture::profile::Dimensions;
 use egui::epaint::MarginF32;
 use egui::{Pos2, Rect, Vec2, vec2};
 use glam::DVec2;

@@ -1,8 +1,8 @@
 //! Tests the drawing in a window, by pointer, by keyboard and by accessible names.
 
 use super::ProfileView;
-use crate::picture::DrawnMarks;
 use brillianteer_cut::{Cut, Pavilion, ProfileHandle, RoundBrilliant, TOLKOWSKY};
+use brillianteer_picture::DrawnMarks;
 use brillianteer_scene::Stone;
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;

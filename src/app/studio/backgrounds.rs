@@ -4,8 +4,8 @@
 use crate::app::urgency;
 use crate::io::Failure;
 use crate::io::background::BackgroundRef;
-use crate::picture::PATTERN_SIDE;
 use brillianteer_base::{Watch, unwatched};
+use brillianteer_picture::PATTERN_SIDE;
 use brillianteer_scene::Mipmap;
 use std::ops::ControlFlow;
 use std::sync::Arc;

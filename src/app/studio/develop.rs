@@ -3,8 +3,8 @@
 use super::order::{Shot, Smoothing, TakenPicture};
 use crate::io::background::BackgroundRef;
 use crate::io::refraction::code_of;
-use crate::picture::{Background, Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_picture::{Background, Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
 use brillianteer_scene::Film;
 use egui::ColorImage;
 use std::sync::Arc;

@@ -2,8 +2,8 @@
 
 use super::order::{Shot, Slot};
 use crate::io::background::BackgroundRef;
-use crate::picture::{Linear, MotionVector, TemporalHistory};
 use brillianteer_cut::{Cut, Glass};
+use brillianteer_picture::{Linear, MotionVector, TemporalHistory};
 use brillianteer_scene::{Body, Companions, Film, Pose, Specimen, View};
 use brillianteer_trace::ray;
 use brillianteer_trace::sampling::LitScene;
@@ -152,7 +152,7 @@ mod tests {
             document: 0,
             specimen,
             title: String::new(),
-            marks: crate::picture::DrawnMarks::default(),
+            marks: brillianteer_picture::DrawnMarks::default(),
             shows: Shows::Render,
             strongest: false,
             glare: Glare::LeftOut,
@@ -165,7 +165,7 @@ mod tests {
             behind: None,
             distance: 3.0,
             strength: 1.0,
-            glow: crate::picture::Bloom::default().strength,
+            glow: brillianteer_picture::Bloom::default().strength,
             bounces: 64,
             light_turn: 0.0,
             light_upright: false,

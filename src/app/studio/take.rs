@@ -9,9 +9,9 @@ use super::order::{Shot, Slot, TakenPicture};
 use super::undeveloped::{Kept, TracedLight};
 use crate::app::shows::Shows;
 use crate::io::{Failure, rasterize_within};
-use crate::picture::{DiagramStyle, Palette, marked_diagram};
 use crate::render::{Card, Partial, RenderError, Renderer};
 use brillianteer_base::Watch;
+use brillianteer_picture::{DiagramStyle, Palette, marked_diagram};
 use egui::ColorImage;
 
 /// Traces pictures, and keeps the data that later pictures can use.
@@ -147,9 +147,9 @@ mod tests {
     use crate::app::studio::{ShotLight, survey};
     use crate::io::background::BackgroundRef;
     use crate::io::lighting;
-    use crate::picture::{Background, Bloom, Develop, develop, fxaa};
     use crate::render::{Quality, Steps};
     use brillianteer_base::unwatched;
+    use brillianteer_picture::{Background, Bloom, Develop, develop, fxaa};
     use brillianteer_scene::{Companions, Glare, Pose, Projection, View};
     use brillianteer_trace::environment::Lighting;
     use brillianteer_trace::gpu::Gpu;
@@ -166,7 +166,7 @@ mod tests {
             document: 0,
             specimen: Arc::clone(Document::first().unwrap().specimen()),
             title: String::new(),
-            marks: crate::picture::DrawnMarks::default(),
+            marks: brillianteer_picture::DrawnMarks::default(),
             shows,
             strongest: false,
             glare: Glare::Included,
@@ -178,7 +178,7 @@ mod tests {
             jitter: true,
             behind: None,
             strength: 1.0,
-            glow: crate::picture::Bloom::default().strength,
+            glow: brillianteer_picture::Bloom::default().strength,
             bounces: 64,
             light_turn: 0.0,
             light_upright: false,

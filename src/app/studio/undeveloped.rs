@@ -3,7 +3,7 @@
 
 use super::order::{Shot, Slot};
 use crate::app::shows::Shows;
-use crate::picture::{Linear, RefractionMap};
+use brillianteer_picture::{Linear, RefractionMap};
 use std::collections::HashMap;
 
 /// The last shot of each slot, with its light before it was developed.

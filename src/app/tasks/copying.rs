@@ -5,7 +5,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{FINE, ShotTracer, Which};
 use crate::io::Failure;
 use crate::io::rasterize;
-use crate::picture::profile;
+use brillianteer_picture::profile;
 use brillianteer_scene::Specimen;
 use egui::ColorImage;
 use std::ops::ControlFlow;

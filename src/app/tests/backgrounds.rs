@@ -7,8 +7,8 @@ use crate::app::model::command::Command;
 use crate::app::model::workspace::Pane;
 use crate::app::studio::ShotLight;
 use crate::io::lighting;
-use crate::picture::RefractionMap;
-use crate::picture::liquid_glass::PaneQuality;
+use brillianteer_picture::RefractionMap;
+use brillianteer_picture::liquid_glass::PaneQuality;
 
 impl Bench {
     /// Chooses what a view shows from its menu, by name.

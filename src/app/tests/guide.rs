@@ -6,7 +6,7 @@ use super::tiers::reach;
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
-use crate::picture::PaperSize;
+use brillianteer_picture::PaperSize;
 use std::path::Path;
 
 /// Opens the window as at a first start, in the dark theme, with a file that comes with the program.

@@ -7,10 +7,10 @@ use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
 use crate::app::studio::{Shot, Smoothing};
 use crate::io::cut_file;
-use crate::picture::Bloom;
 use brillianteer_cut::MaterialRef;
 use brillianteer_math::Basis;
 use brillianteer_optics::{Material, encoded_from_linear, line, linear_from_encoded};
+use brillianteer_picture::Bloom;
 use brillianteer_scene::{LIGHTS, Light, light};
 use brillianteer_trace::environment::{Environment, EnvironmentMap};
 use egui::{

@@ -3,7 +3,7 @@
 use super::fitting::pick;
 use super::*;
 use crate::app::model::Model;
-use crate::measure::MeasureName;
+use brillianteer_measure::MeasureName;
 use egui::{Role, pos2, vec2};
 
 /// The number of points of the first complete level: 5 x 5.

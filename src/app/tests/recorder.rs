@@ -4,7 +4,7 @@
 //! fails with the lines that differ. Hashes hold for one machine: other processors round sines differently.
 
 use super::*;
-use crate::measure::Figures;
+use brillianteer_measure::Figures;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::hash::{DefaultHasher, Hash, Hasher};

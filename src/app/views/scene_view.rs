@@ -9,8 +9,8 @@ use crate::app::model::audit::finding_facets;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::app::theme::FOUND;
-use crate::picture::Scoped;
 use brillianteer_cut::Cut;
+use brillianteer_picture::Scoped;
 use brillianteer_scene::Scope;
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,

@@ -1,9 +1,9 @@
 //! The times of the parts of a pane's drawing, and the differences between the qualities.
 
-use crate::picture::Linear;
+use brillianteer_picture::Linear;
 #[cfg(feature = "gpu")]
-use crate::picture::liquid_glass::PanesOnCard;
-use crate::picture::liquid_glass::{GlassPane, PaneQuality, PreparedPane, pane};
+use brillianteer_picture::liquid_glass::PanesOnCard;
+use brillianteer_picture::liquid_glass::{GlassPane, PaneQuality, PreparedPane, pane};
 use brillianteer_scene::Panorama;
 #[cfg(feature = "gpu")]
 use brillianteer_trace::gpu::{Gpu, GpuError};

@@ -64,7 +64,7 @@ fn sheet_of(tiers: Tiers, left_handed: bool) -> CuttingSheet {
 
 /// Returns the lines of a sheet: block, name, angle, indices, instruction, and whether it is below the critical angle.
 fn lines(sheet: &CuttingSheet) -> Vec<String> {
-    let line = |block: &crate::picture::SheetBlock, row: &crate::picture::SheetRow| {
+    let line = |block: &brillianteer_picture::SheetBlock, row: &brillianteer_picture::SheetRow| {
         let (block, mark) = (block.name.name(), if row.below_critical { "*" } else { "" });
         format!("{block}|{}|{:.2}{mark}|{}|{}", row.name, row.angle_deg, row.indices_text(), row.instruction)
     };

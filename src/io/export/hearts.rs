@@ -2,8 +2,10 @@
 
 use super::viewing::Viewing;
 use crate::io::Failure;
-use crate::measure::{ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows};
 use brillianteer_base::Watch;
+use brillianteer_measure::{
+    ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows,
+};
 use brillianteer_scene::VIEWER_CONES_DEG;
 use serde_json::{Value, json};
 

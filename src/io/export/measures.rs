@@ -4,12 +4,12 @@ use super::event::{Event, Reporter};
 use super::figures::seen_from;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
-use crate::measure::{
+use crate::render::{MeasuresProduct, Product, Renderer};
+use brillianteer_base::Watch;
+use brillianteer_measure::{
     Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings, SampledNumber,
     hemisphere_return,
 };
-use crate::render::{MeasuresProduct, Product, Renderer};
-use brillianteer_base::Watch;
 use brillianteer_optics::line;
 use brillianteer_scene::{DomeLight, Film};
 use serde_json::{Map, Value, json};

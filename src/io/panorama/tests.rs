@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::io::{write_linear_exr, write_rgba_png};
-use crate::picture::Linear;
 use brillianteer_optics::SrgbEncoder;
+use brillianteer_picture::Linear;
 use std::path::PathBuf;
 use tempfile::TempDir;
 

@@ -3,9 +3,9 @@
 use super::codes::Codes;
 use super::mending::{self, MendedPixels};
 use super::{Template, tiles};
-use crate::picture::SourcePlace;
 use brillianteer_base::Fault;
 use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
+use brillianteer_picture::SourcePlace;
 use glam::DVec2;
 use std::collections::HashMap;
 

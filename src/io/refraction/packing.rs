@@ -7,7 +7,7 @@
 //! three in each pixel, are a PNG, which browsers inflate before the page counts as loaded. `page.html` undoes this.
 
 use super::tiles;
-use crate::picture::{MapBand, RefractionMap};
+use brillianteer_picture::{MapBand, RefractionMap};
 use png::{ColorType, Compression, Encoder, EncodingError, Filter};
 use std::io;
 
@@ -176,7 +176,7 @@ fn predicted(planes: &[Planes], step: Step, plane: usize, k: usize, width: usize
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::{Linear, SourcePlace};
+    use brillianteer_picture::{Linear, SourcePlace};
     use glam::DMat3;
 
     /// Unpacks a map as the page does.

@@ -3,9 +3,9 @@
 use super::packing::packed;
 use super::{diffuse_png, write_bytes};
 use crate::io::WriteError;
-use crate::picture::RefractionMap;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use brillianteer_picture::RefractionMap;
 use serde_json::json;
 use std::path::Path;
 
@@ -81,7 +81,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::{Linear, MapBand, SourcePlace};
+    use brillianteer_picture::{Linear, MapBand, SourcePlace};
     use glam::DMat3;
 
     #[test]

@@ -12,7 +12,7 @@
 //! 16)) / 255, which has two traps: b = 1 gives a seventeenth column (`B >> 4` is 15), and where 255 b comes out as
 //! 31.999998, `mod` is 16 too large. Round to bytes first.
 
-use crate::picture::SourcePlace;
+use brillianteer_picture::SourcePlace;
 use glam::DVec2;
 
 /// The number of tiles each way.

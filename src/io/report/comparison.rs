@@ -5,9 +5,9 @@ use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, provenance};
 use crate::io::Failure;
-use crate::measure::{Interval, MeasureName, measure_words};
-use crate::picture::{FigureRow, Report, ReportCell, ReportFigure, ReportPart, ReportTable, TextFlow};
 use brillianteer_math::fixed;
+use brillianteer_measure::{Interval, MeasureName, measure_words};
+use brillianteer_picture::{FigureRow, Report, ReportCell, ReportFigure, ReportPart, ReportTable, TextFlow};
 use brillianteer_scene::DomeLight;
 use std::cmp::Ordering;
 

@@ -2,12 +2,12 @@
 
 use super::stone::{ReportedLight, ReportedStone};
 use crate::io::export::FigureReport;
-use crate::measure::{
-    EightfoldPattern, FaceUpSize, Interval, MeasureName, OctantUnit, facet_deviations, measure_words,
-};
-use crate::picture::{ReportTable, TextFlow};
 use brillianteer_cut::{Cut, ProportionReport, Spread};
 use brillianteer_math::{fixed, signed};
+use brillianteer_measure::{
+    EightfoldPattern, FaceUpSize, Interval, MeasureName, OctantUnit, facet_deviations, measure_words,
+};
+use brillianteer_picture::{ReportTable, TextFlow};
 
 /// Deviations and departures below this are printed as 0, and then no facet or octant is named as the worst.
 const NOT_SHOWN: f64 = 5e-4;
@@ -179,7 +179,7 @@ pub(super) fn deviations(stone: &ReportedStone) -> Option<ReportTable> {
         ("worst facet", numbers),
     ]);
     for class in classes {
-        let worst = |of: &crate::measure::FacetDeviation, spread: f64| match spread < NOT_SHOWN {
+        let worst = |of: &brillianteer_measure::FacetDeviation, spread: f64| match spread < NOT_SHOWN {
             true => "–".to_owned(),
             false => format!("{} {}°", of.facet, signed(of.by_deg, 3)),
         };

@@ -1,8 +1,8 @@
 //! A report as a web page of one file: it contains pictures, drawings and font, and fetches nothing.
 
-use crate::picture::{FigureRow, Report, ReportCell, ReportPart, ReportTable, TextFlow};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use brillianteer_picture::{FigureRow, Report, ReportCell, ReportPart, ReportTable, TextFlow};
 use std::fmt::Write;
 
 /// The style of the page, on a screen and in print.

@@ -4,17 +4,17 @@ use crate::io::Failure;
 use crate::io::export::{Reporter, ScopeStill, Viewing, note};
 use crate::io::lighting;
 use crate::io::png_bytes::png;
-use crate::measure::facet_deviations;
-use crate::picture::{
-    Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram,
-    named, profile,
-};
 use crate::render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
 use ::png::{BitDepth, ColorType};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use brillianteer_base::Watch;
+use brillianteer_measure::facet_deviations;
 use brillianteer_optics::linear_from_encoded;
+use brillianteer_picture::{
+    Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram,
+    named, profile,
+};
 use brillianteer_scene::Scene;
 use std::sync::Arc;
 

@@ -4,9 +4,9 @@ use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, figures, provenance};
 use crate::io::Failure;
-use crate::measure::MeasureName;
-use crate::picture::{FigureRow, Report, ReportFigure, ReportPart, ReportTable};
 use brillianteer_cut::Cut;
+use brillianteer_measure::MeasureName;
+use brillianteer_picture::{FigureRow, Report, ReportFigure, ReportPart, ReportTable};
 use brillianteer_scene::DomeLight;
 
 /// The greatest height of the pictures in scopes, as a part of the width of the text.

@@ -1,9 +1,9 @@
 use super::*;
 use crate::io::drawing_png::legible::assert_legible;
 use crate::io::{cut_file, library};
-use crate::measure::STANDARD_ERROR;
 use crate::render::{Card, Wanted};
 use brillianteer_base::unwatched;
+use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_scene::{Specimen, Viewpoint};
 
 fn specimen(text: &str) -> Specimen {
@@ -42,8 +42,8 @@ fn reported(viewings: &[Viewing]) -> Report {
 }
 
 fn headings(report: &Report) -> Vec<&str> {
-    use crate::picture::ReportPart::Heading;
-    let heading = |part: &'_ crate::picture::ReportPart| matches!(part, Heading(_));
+    use brillianteer_picture::ReportPart::Heading;
+    let heading = |part: &'_ brillianteer_picture::ReportPart| matches!(part, Heading(_));
     let headings = report.parts.iter().filter(|part| heading(part));
     headings.filter_map(|part| if let Heading(text) = part { Some(text.as_str()) } else { None }).collect()
 }
@@ -96,7 +96,7 @@ fn no_text_of_a_report_leaves_its_page_or_overlaps_another_whatever_is_said() {
         found.facts.iter_mut().for_each(|[_, value]| value.push_str(&title));
         found.provenance.iter_mut().for_each(|[_, value]| value.push_str(&title));
         let tables = found.parts.iter_mut().filter_map(|part| match part {
-            crate::picture::ReportPart::Table(table) => Some(table),
+            brillianteer_picture::ReportPart::Table(table) => Some(table),
             _ => None,
         });
         for table in tables {
@@ -119,7 +119,7 @@ fn stones_are_compared_in_columns_and_a_solid_without_facets_has_its_sampled_lig
     let slanted = specimen(include_str!("../../../tests/fixtures/slanted.toml"));
     let compared = reported(&[viewing(&cube, "cube.toml"), viewing(&slanted, "slanted.toml")]);
     let tables = compared.parts.iter().filter_map(|part| match part {
-        crate::picture::ReportPart::Table(table) => Some(table),
+        brillianteer_picture::ReportPart::Table(table) => Some(table),
         _ => None,
     });
     for table in tables {

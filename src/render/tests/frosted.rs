@@ -44,7 +44,7 @@ fn figures_of_frosted_facets_count_their_light_as_unresolved() {
     // The table takes about a third of the outline, and most light from elsewhere meets it.
     assert!(polished.figures.unresolved < 1e-2 && frosted.figures.unresolved > 0.3);
     assert!((frosted.figures.sum() - 1.0).abs() < 1e-9, "{}", frosted.figures.sum());
-    let shares = |m: &crate::measure::Measured| (m.light_return(), m.light_return() + m.error());
+    let shares = |m: &brillianteer_measure::Measured| (m.light_return(), m.light_return() + m.error());
     let (low, high) = shares(&frosted);
     assert!(low < polished.light_return() && high > polished.light_return(), "{low} {high}");
 }

@@ -14,8 +14,8 @@ use crate::app::model::render_settings::SettingChange;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::work::Work;
 use crate::app::model::workspace::PaneLayout;
-use crate::picture::DrawnMarks;
 use brillianteer_cut::Cut;
+use brillianteer_picture::DrawnMarks;
 use brillianteer_scene::{LIGHTS, scattered};
 
 impl Model {

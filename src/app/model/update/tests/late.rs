@@ -6,8 +6,8 @@ use crate::app::model::figures::SessionFigures;
 use crate::app::model::motion::WaveCache;
 use crate::app::model::ordering::Orders;
 use crate::app::studio::{FiguresOrder, Grade};
-use crate::measure::Figures;
 use brillianteer_cut::Design;
+use brillianteer_measure::Figures;
 
 /// Asks for a file to save to, and answers with `path`.
 fn save_as(bench: &mut Bench, path: &Path) -> Vec<Task> {

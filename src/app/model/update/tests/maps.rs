@@ -6,9 +6,9 @@ use crate::app::model::measure_map::MapOptions;
 use crate::app::model::motion::WaveCache;
 use crate::app::model::ordering::Orders;
 use crate::app::studio::SweptPoint;
-use crate::measure::MeasureName;
 use brillianteer_base::{Stopped, unwatched};
 use brillianteer_cut::Cut;
+use brillianteer_measure::MeasureName;
 use std::sync::Arc;
 
 /// Returns the numbers of the sweeps that are requested now.
