@@ -38,8 +38,6 @@ pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod io;
-pub mod render;
-pub mod search;
 
 /// What every room shares: work that can be watched and stopped, and faults in files.
 pub use brillianteer_base as base;
@@ -48,7 +46,9 @@ pub use brillianteer_math as math;
 pub use brillianteer_measure as measure;
 pub use brillianteer_optics as optics;
 pub use brillianteer_picture as picture;
+pub use brillianteer_render as render;
+pub use brillianteer_render::measure;
 pub use brillianteer_scene as scene;
+pub use brillianteer_search as search;
 pub use brillianteer_trace as trace;
 pub use glam;
-pub use render::measure;

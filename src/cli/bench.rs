@@ -8,14 +8,14 @@ use super::console::{json, print, say};
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
 use crate::io::mesh_options::MeshOptions;
-use crate::render::{
-    Backend, Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer,
-    ScopeProduct, Steps, Surroundings, USUAL_BOUNCES, Wanted,
-};
 use brillianteer_base::unwatched;
 use brillianteer_math::Polytope;
 use brillianteer_measure::{Bounds, STANDARD_ERROR};
 use brillianteer_optics::line;
+use brillianteer_render::{
+    Backend, Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer,
+    ScopeProduct, Steps, Surroundings, USUAL_BOUNCES, Wanted,
+};
 use brillianteer_scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View, Viewpoint};
 use brillianteer_trace::beam;
 use brillianteer_trace::environment::{EnvironmentMap, Lighting};

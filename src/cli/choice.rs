@@ -4,8 +4,8 @@ use crate::io::cutting_sheet::SheetFormat;
 use crate::io::design_file::DesignFormat;
 use crate::io::export::OutputFormat;
 use crate::io::mesh_options::MeshForm;
-use crate::render::Wanted;
 use brillianteer_picture::PaperSize;
+use brillianteer_render::Wanted;
 use brillianteer_scene::Movement;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 

@@ -4,10 +4,12 @@ use super::console::{json, print, say};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
 use crate::io::Failure;
-use crate::render::{GradedStone, LEAST_TIER_DEG, MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
 use brillianteer_cut::{Cut, ScaledSide, Unit};
 use brillianteer_math::signed;
 use brillianteer_measure::{Interval, MeasureName};
+use brillianteer_render::{
+    GradedStone, LEAST_TIER_DEG, MeasureGradient, RenderError, Sweep, SweepError, SweepKey,
+};
 use clap::Args;
 use serde_json::{Map, Value};
 use std::fmt::Write;

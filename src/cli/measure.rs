@@ -10,12 +10,12 @@ use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
 use crate::io::Failure;
 use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
-use crate::render::{Card, Renderer};
 use brillianteer_math::{fixed, signed};
 use brillianteer_measure::{
     ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
 };
 use brillianteer_picture::Scoped;
+use brillianteer_render::{Card, Renderer};
 use brillianteer_scene::{DomeLight, Glare};
 use clap::Args;
 use std::fmt::Write;

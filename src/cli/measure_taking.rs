@@ -4,9 +4,9 @@ use super::options::{ViewOptions, number};
 use super::specimen::note_no_fire;
 use super::specimen_options::SpecimenOptions;
 use crate::io::Failure;
-use crate::render::{Sweep, SweepAxis, SweepKey};
 use brillianteer_measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
 use brillianteer_optics::line;
+use brillianteer_render::{Sweep, SweepAxis, SweepKey};
 use clap::Args;
 use std::path::Path;
 

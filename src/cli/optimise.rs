@@ -11,13 +11,13 @@ use super::specimen_options::SpecimenOptions;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
 use crate::io::{Failure, check_writable, goal_file};
-use crate::search::{
-    DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
-};
 use brillianteer_base::unwatched;
 use brillianteer_cut::Design;
 use brillianteer_measure::{MeasureName, NoMeasure};
 use brillianteer_scene::Specimen;
+use brillianteer_search::{
+    DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
+};
 use clap::Args;
 use std::ops::ControlFlow;
 use std::path::PathBuf;

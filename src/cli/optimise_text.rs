@@ -1,13 +1,13 @@
 //! The output of `optimise`: the measures that rose, those that fell, and the numbers that changed.
 
 use super::sweep_plot::label;
-use crate::search::{
-    DesignSearch, Goal, GoalValue, MeasureChange, OtherMeasure, SearchOutcome, VariedNumber,
-    estimated_classes,
-};
 use brillianteer_cut::Cut;
 use brillianteer_math::{rounded, signed};
 use brillianteer_measure::Interval;
+use brillianteer_search::{
+    DesignSearch, Goal, GoalValue, MeasureChange, OtherMeasure, SearchOutcome, VariedNumber,
+    estimated_classes,
+};
 use serde_json::{Value, json};
 use std::fmt::Write;
 

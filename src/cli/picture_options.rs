@@ -4,8 +4,8 @@
 use super::choice::{MOVEMENTS, TRACERS, one_of};
 use super::options::{OptionError, number};
 use super::specimen_options::SpecimenOptions;
-use crate::render::{USUAL_BOUNCES, Wanted};
 use brillianteer_picture::{Bloom, Overlay, Smoothing, Tone};
+use brillianteer_render::{USUAL_BOUNCES, Wanted};
 use brillianteer_scene::Movement;
 use clap::Args;
 

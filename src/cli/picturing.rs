@@ -9,12 +9,12 @@ use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::lighting;
 use crate::io::{Failure, Finish, StoredLight};
-use crate::render::{
+use brillianteer_base::Watch;
+use brillianteer_picture::{Bloom, Develop, Overlay, Smoothing, Tone};
+use brillianteer_render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
-use brillianteer_base::Watch;
-use brillianteer_picture::{Bloom, Develop, Overlay, Smoothing, Tone};
 use brillianteer_scene::{Film, Mipmap, Scene, View, Viewpoint};
 use brillianteer_trace::environment::Lighting;
 use brillianteer_trace::ray::{self, Camera, RayOptions};

@@ -8,8 +8,8 @@ use super::progress::WorkProgress;
 use super::specimen_options::SpecimenOptions;
 use crate::io::report::{PICTURE_SIDE, ReportFormat, ReportOrigin, check_count, report, write};
 use crate::io::{Failure, check_writable, is_standard, note_of_letters};
-use crate::render::{Card, Renderer, Wanted};
 use brillianteer_picture::PaperSize;
+use brillianteer_render::{Card, Renderer, Wanted};
 use clap::Args;
 use std::path::PathBuf;
 

@@ -8,11 +8,11 @@ use super::sweep_plot::UNIT;
 use crate::io::export::caption_pixels;
 use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
 use crate::io::{Failure, rasterize, with_cover};
-use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use brillianteer_base::Watch;
 use brillianteer_cut::Design;
 use brillianteer_measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use brillianteer_optics::line;
+use brillianteer_render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use brillianteer_scene::Lean;
 
 /// The least width of pictures with curves, in pixels.

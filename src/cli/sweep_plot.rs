@@ -5,9 +5,9 @@ use crate::io::Failure;
 use crate::io::plot::{
     COLOURS_OF_CURVES, PLOT_SIZE, PlotAxis, PlotCurve, PlotError, PlotPanel, curves, heat_map, panels,
 };
-use crate::render::{SweepAxis, SweepKey, SweepValue, SweptStone};
 use brillianteer_cut::Cut;
 use brillianteer_measure::{Interval, MeasureName};
+use brillianteer_render::{SweepAxis, SweepKey, SweepValue, SweptStone};
 use std::path::Path;
 
 /// A plot that collects the points of a sweep.

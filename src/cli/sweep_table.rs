@@ -3,8 +3,8 @@
 use super::console::print;
 use super::sweep_parquet::ParquetTable;
 use crate::io::{Failure, WholeFile, check_writable};
-use crate::render::SweptStone;
 use brillianteer_measure::{Interval, MeasureName};
+use brillianteer_render::SweptStone;
 use serde_json::{Map, Value, json};
 use std::collections::VecDeque;
 use std::fs::{File, OpenOptions};

@@ -24,9 +24,9 @@ pub use viewing::Viewing;
 pub(in crate::io) use viewing::note;
 
 use super::{Failure, WriteError, is_standard, write};
-use crate::render::Renderer;
 use brillianteer_base::Watch;
 use brillianteer_picture::{Picture, Scoped};
+use brillianteer_render::Renderer;
 use pictures::Pictures;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,9 @@
 //! The reasons why work that produces files was not done.
 
 use super::atomic::WriteError;
-use crate::render::{RenderError, Unfit};
 use brillianteer_base::Stopped;
 use brillianteer_base::{FileError, NameOrFileError};
+use brillianteer_render::{RenderError, Unfit};
 
 /// The reason why a request was not carried out in full. Files that were finished before stay.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

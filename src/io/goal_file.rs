@@ -3,8 +3,8 @@
 
 use super::toml_text::TomlText;
 use super::{Failure, WriteError, text, write as write_whole};
-use crate::search::Goal;
 use brillianteer_base::{Fault, FileError};
+use brillianteer_search::Goal;
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes.
@@ -40,7 +40,7 @@ fn goal(text: &str) -> Result<Goal, Fault> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::search::GoalMaterial;
+    use brillianteer_search::GoalMaterial;
 
     const GOAL: &str = "name = \"bright\"\n[[measure]]\nof = \"return-cos2\"\nmaterial = [\"quartz\", 1.62]\ntilt = 10\n\
         may_lose = 0.01\n[[measure]]\nof = \"windowing\"\nweight = -2\nat_most = 0.1\n[vary]\ncrown_angle = [28, 40]\n\

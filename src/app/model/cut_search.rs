@@ -5,10 +5,10 @@
 
 use super::goal_form::{GoalForm, GoalFormFault};
 use crate::io::Failure;
-use crate::search::{
+use brillianteer_cut::{Cut, CutClass, Design};
+use brillianteer_search::{
     Appraisal, Goal, OtherMeasure, ProgressPoint, SearchOptions, SearchOutcome, SearchProgress, VariedNumber,
 };
-use brillianteer_cut::{Cut, CutClass, Design};
 
 /// Numbers that differ by less than this are equal: the search rounds its values.
 const SAME: f64 = 1e-9;

@@ -9,10 +9,10 @@ use crate::app::studio::Shot;
 use crate::io::Failure;
 use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
 use crate::io::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
-use crate::render::{Renderer, Wanted};
 use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_optics::line;
 use brillianteer_picture::named;
+use brillianteer_render::{Renderer, Wanted};
 use brillianteer_scene::{
     Companions, Copies, Glare, MetalInstance, Movement, Pose, SceneRing, Side, Specimen, View, Viewpoint,
 };

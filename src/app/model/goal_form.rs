@@ -2,10 +2,10 @@
 //! change.
 
 use super::measure_map::MapAxis;
-use crate::render::SweepKey;
-use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
 use brillianteer_cut::{Cut, Proportion};
 use brillianteer_measure::measure_words;
+use brillianteer_render::SweepKey;
+use brillianteer_search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
 use std::collections::BTreeMap;
 
 /// The proportions that may change at first, where a cut has them.
@@ -116,7 +116,7 @@ pub enum GoalFormFault {
     },
     /// The goal has another fault.
     #[error("{0}")]
-    Goal(#[from] crate::search::GoalFault),
+    Goal(#[from] brillianteer_search::GoalFault),
 }
 
 impl Default for GoalForm {

@@ -1,10 +1,10 @@
 //! A sweep that grows: its order, and the points that have been answered.
 
 use crate::app::studio::{SweepOrder, SweptPoint};
-use crate::render::{Sweep, SweepAxis, SweepError, SweptStone};
 use brillianteer_cut::Design;
 use brillianteer_measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use brillianteer_optics::line;
+use brillianteer_render::{Sweep, SweepAxis, SweepError, SweptStone};
 use brillianteer_scene::Viewpoint;
 use std::sync::Arc;
 
@@ -115,8 +115,8 @@ mod tests {
     fn order(number: u64) -> SweepOrder {
         let design = crate::app::model::document::Document::first().unwrap().work.design;
         let axes = vec![SweepAxis {
-            key: crate::render::SweepKey::Tilt,
-            values: [0.0, 1.0, 2.0].map(crate::render::SweepValue::Number).into(),
+            key: brillianteer_render::SweepKey::Tilt,
+            values: [0.0, 1.0, 2.0].map(brillianteer_render::SweepValue::Number).into(),
         }];
         let sweep = Arc::new(sweep_of(&design, axes, MeasureName::Fire, 0.05));
         SweepOrder { number, sweep, points: Arc::new([2, 0, 1]), coarse: 1 }

@@ -6,10 +6,10 @@
 use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use super::impossible::by_name;
 use crate::app::studio::SweepOrder;
-use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue};
 use brillianteer_cut::{Cut, Design, MaterialRef, Proportion, ScaledSide, Unit};
 use brillianteer_math::Plane;
 use brillianteer_measure::{MeasureName, MeasureSettings};
+use brillianteer_render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue};
 use std::sync::Arc;
 
 /// The number of steps along each axis of the finest grid.

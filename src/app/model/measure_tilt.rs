@@ -2,8 +2,8 @@
 
 use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use crate::app::studio::SweepOrder;
-use crate::render::{SweepAxis, SweepKey, SweepValue};
 use brillianteer_measure::{Interval, MeasureName};
+use brillianteer_render::{SweepAxis, SweepKey, SweepValue};
 use brillianteer_scene::Specimen;
 use std::sync::Arc;
 

@@ -4,8 +4,8 @@ use crate::app::liquid::Liquid;
 use crate::app::studio::Smoothing;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::SceneFile;
-use crate::render::USUAL_BOUNCES;
 use brillianteer_picture::Bloom;
+use brillianteer_render::USUAL_BOUNCES;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

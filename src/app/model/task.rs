@@ -8,8 +8,8 @@ use super::opening::FileRequest;
 use super::recovery::UnsavedWork;
 use super::saving::{SaveRequest, Stamp};
 use crate::app::studio::{Order, Shot};
-use crate::search::Goal;
 use brillianteer_scene::{RingPlan, Specimen};
+use brillianteer_search::Goal;
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 
 use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, spoken};
 use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort};
-use crate::search::GoalMeasure;
 use brillianteer_measure::measure_words;
+use brillianteer_search::GoalMeasure;
 use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
 
 /// The widths of the fields of a measure, of its direction, and of its numbers, points.

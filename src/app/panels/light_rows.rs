@@ -8,8 +8,8 @@ use crate::app::model::render_settings::{RenderSettings, SettingChange, WAVELENG
 use crate::app::panels::rows::{ChoiceRow, Row, colour_row, field_width, skip_name};
 use crate::app::studio::BEHIND;
 use crate::io::background::BackgroundRef;
-use crate::render::USUAL_BOUNCES;
 use brillianteer_picture::{Background, light_picture};
+use brillianteer_render::USUAL_BOUNCES;
 use brillianteer_scene::{LIGHTS, light};
 use egui::{Button, ColorImage, Id, Image, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use std::borrow::Cow;

@@ -8,9 +8,9 @@ use crate::app::model::growing_sweep::FoundSweep;
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STRIDES, point};
 use crate::app::theme;
 use crate::io::plot::{levels, map_colour};
-use crate::render::{SweepError, SweptStone};
 use brillianteer_cut::Design;
 use brillianteer_measure::measure_words;
+use brillianteer_render::{SweepError, SweptStone};
 use egui::epaint::Mesh;
 use egui::{
     Align2, Color32, FontId, Modifiers, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke,

@@ -1,6 +1,6 @@
 //! The curve of progress: the goal of the best cut so far against the number of designs that were tried.
 
-use crate::search::ProgressPoint;
+use brillianteer_search::ProgressPoint;
 use egui::{Color32, Role, Ui, WidgetInfo};
 use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints, Points};
 

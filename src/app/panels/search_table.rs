@@ -5,10 +5,10 @@ use crate::app::model::Model;
 use crate::app::model::cut_search::SearchReport;
 use crate::app::model::goal_form::NumberChoice;
 use crate::app::theme;
-use crate::search::MeasureChange;
 use brillianteer_math::{fixed, signed};
 use brillianteer_measure::Interval;
 use brillianteer_measure::measure_words;
+use brillianteer_search::MeasureChange;
 use egui::{Color32, Grid, Response, RichText, Ui, vec2};
 use std::cmp::Ordering;
 

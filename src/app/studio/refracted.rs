@@ -9,9 +9,9 @@ use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
 use crate::app::lookup::as_screens;
 use crate::io::Failure;
-use crate::render::{Job, Rendered, Renderer};
 use brillianteer_base::Watch;
 use brillianteer_picture::{Carried, Develop, RefractionMap};
+use brillianteer_render::{Job, Rendered, Renderer};
 
 /// The resolution of maps by grade. The time of a look-up grows with the number of bands.
 const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, samples: 1 };

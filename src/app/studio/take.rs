@@ -9,9 +9,9 @@ use super::order::{Shot, Slot, TakenPicture};
 use super::undeveloped::{Kept, TracedLight};
 use crate::app::shows::Shows;
 use crate::io::{Failure, rasterize_within};
-use crate::render::{Card, Partial, RenderError, Renderer};
 use brillianteer_base::Watch;
 use brillianteer_picture::{DiagramStyle, Palette, marked_diagram};
+use brillianteer_render::{Card, Partial, RenderError, Renderer};
 use egui::ColorImage;
 
 /// Traces pictures, and keeps the data that later pictures can use.
@@ -147,9 +147,9 @@ mod tests {
     use crate::app::studio::{ShotLight, survey};
     use crate::io::background::BackgroundRef;
     use crate::io::lighting;
-    use crate::render::{Quality, Steps};
     use brillianteer_base::unwatched;
     use brillianteer_picture::{Background, Bloom, Develop, develop, fxaa};
+    use brillianteer_render::{Quality, Steps};
     use brillianteer_scene::{Companions, Glare, Pose, Projection, View};
     use brillianteer_trace::environment::Lighting;
     use brillianteer_trace::gpu::Gpu;

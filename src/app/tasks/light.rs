@@ -2,7 +2,7 @@
 
 use crate::app::model::fitting::{LightRequest, StoneLight};
 use crate::io::Failure;
-use crate::render::{MeasureError, MeasureOptions, measure};
+use brillianteer_render::{MeasureError, MeasureOptions, measure};
 use brillianteer_scene::Specimen;
 
 /// Measures the stones one after the other.

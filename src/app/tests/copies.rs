@@ -14,7 +14,7 @@ use crate::app::setup::Setup;
 use crate::app::shows::Shows;
 use crate::app::studio::{Smoothing, Which, hung};
 use crate::app::tasks::export_scene::SceneOut;
-use crate::render::{Quality, Steps};
+use brillianteer_render::{Quality, Steps};
 use brillianteer_scene::{Copies, Mipmap, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;

@@ -61,7 +61,8 @@ fn a_brilliant_is_fitted_to_sapphire_as_one_step_with_the_light_of_both() {
         assert!(bench.harness.query_all_by_label(&text).next().is_some(), "{text}");
     }
     let design = bench.editor().model.document.work.design.clone();
-    let measured = crate::render::measure(&design, &crate::render::MeasureOptions::default()).unwrap();
+    let measured =
+        brillianteer_render::measure(&design, &brillianteer_render::MeasureOptions::default()).unwrap();
     assert_eq!(light[0].light_return, measured.light_return());
     // With a diamond's margin over the critical angle, sapphire leaks.
     assert!(light[2].leakage > light[1].leakage, "{light:?}");

@@ -3,8 +3,8 @@
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::io::cut_file;
-use crate::render::{MeasureOptions, measure};
 use brillianteer_cut::Crown;
+use brillianteer_render::{MeasureOptions, measure};
 use egui_kittest::kittest::NodeT;
 
 #[test]

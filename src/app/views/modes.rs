@@ -10,7 +10,7 @@ use crate::app::model::eye::Eye;
 use crate::app::model::render_settings::SettingChange;
 use crate::app::model::workspace::Pane;
 use crate::app::shows::Shows;
-use crate::render::USUAL_BOUNCES;
+use brillianteer_render::USUAL_BOUNCES;
 use egui::{Button, RichText, TextStyle, Ui};
 use std::path::Path;
 

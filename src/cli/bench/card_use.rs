@@ -2,7 +2,7 @@
 
 use super::CardLine;
 use crate::io::Failure;
-use crate::render::RenderError;
+use brillianteer_render::RenderError;
 use brillianteer_trace::gpu::{CardPeak, DispatchTotals, Gpu};
 use serde_json::{Value, json};
 use std::sync::OnceLock;

@@ -4,9 +4,9 @@ use super::{PictureSetup, RenderedPicture};
 use crate::cli::console::report;
 use crate::io::export::Event;
 use crate::io::{Failure, StoredLight};
-use crate::render::{Job, LightProduct, Output, Partial, Product, Rendered, Steps};
 use brillianteer_base::Watch;
 use brillianteer_picture::{Linear, TemporalHistory, motion_of_view};
+use brillianteer_render::{Job, LightProduct, Output, Partial, Product, Rendered, Steps};
 use brillianteer_scene::View;
 
 /// The default number of samples of a picture. Where the newest has a share of one half, the oldest samples then

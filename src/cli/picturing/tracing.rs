@@ -3,8 +3,8 @@
 use super::PictureSetup;
 use crate::cli::console::say;
 use crate::io::Failure;
-use crate::render::{Rendered, USUAL_BOUNCES, mixture_note};
 use brillianteer_picture::Smoothing;
+use brillianteer_render::{Rendered, USUAL_BOUNCES, mixture_note};
 
 /// The share of unresolved light above which a warning is printed.
 const MUCH_UNRESOLVED: f64 = 0.02;

@@ -2,9 +2,9 @@
 
 use super::as_tiers;
 use crate::io::{cut_file, library};
-use crate::render::{Sweep, SweepKey, with_numbers};
 use brillianteer_cut::{Cut, Design, ScaledSide};
 use brillianteer_measure::{MeasureDerivatives, MeasureName, MeasureSettings};
+use brillianteer_render::{Sweep, SweepKey, with_numbers};
 use brillianteer_scene::{Medium, Specimen, Stone, View, Viewpoint};
 use brillianteer_trace::beam::{BeamOptions, Beams, trace_bounces};
 

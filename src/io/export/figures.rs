@@ -3,10 +3,10 @@
 use super::event::Reporter;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
-use crate::render::{Backend, FiguresProduct, Product, Renderer};
 use brillianteer_base::Watch;
 use brillianteer_measure::{Bounds, Estimate, Measured, UNRESOLVED};
 use brillianteer_picture::Scoped;
+use brillianteer_render::{Backend, FiguresProduct, Product, Renderer};
 use brillianteer_scene::{Film, Glare, Lean, Projection, Viewpoint};
 use serde_json::{Map, Value, json};
 use std::time::Instant;

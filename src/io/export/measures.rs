@@ -4,13 +4,13 @@ use super::event::{Event, Reporter};
 use super::figures::seen_from;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
-use crate::render::{MeasuresProduct, Product, Renderer};
 use brillianteer_base::Watch;
 use brillianteer_measure::{
     Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings, SampledNumber,
     hemisphere_return,
 };
 use brillianteer_optics::line;
+use brillianteer_render::{MeasuresProduct, Product, Renderer};
 use brillianteer_scene::{DomeLight, Film};
 use serde_json::{Map, Value, json};
 

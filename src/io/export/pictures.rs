@@ -5,11 +5,11 @@ use super::sheet::{ScopeSheet, SheetFile, UNRESOLVED, how, in_percent, remark};
 use super::viewing::{Viewing, note};
 use super::{Export, OutputFormat, Outputs, write_text};
 use crate::io::{Failure, note_of_letters, rasterize, write_exr, write_png};
-use crate::render::{Job, Partial, Reading, Rendered, Renderer};
 use brillianteer_base::Watch;
 use brillianteer_picture::{
     DiagramStyle, DrawnMarks, Layer, Palette, Picture, Scoped, marked_diagram, profile, vector,
 };
+use brillianteer_render::{Job, Partial, Reading, Rendered, Renderer};
 use brillianteer_scene::{Film, Stone, View};
 use brillianteer_trace::beam::{self, Beams};
 

@@ -3,9 +3,9 @@
 use super::viewing::Viewing;
 use super::{OutputFormat, Outputs};
 use crate::io::{Failure, PngFile, rasterize};
-use crate::render::{Backend, Job, Product, Reading, ScopeProduct};
 use brillianteer_math::rounded;
 use brillianteer_picture::{Caption, Palette, Rows};
+use brillianteer_render::{Backend, Job, Product, Reading, ScopeProduct};
 use brillianteer_scene::{Glare, Scope};
 use std::path::PathBuf;
 

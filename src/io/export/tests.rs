@@ -1,9 +1,9 @@
 use super::*;
 use crate::io::{cut_file, library};
-use crate::render::{Renderer, Wanted};
 use brillianteer_base::unwatched;
 use brillianteer_cut::MaterialRef;
 use brillianteer_picture::named;
+use brillianteer_render::{Renderer, Wanted};
 use brillianteer_scene::{Glare, Lean, Medium, Projection, Side, Specimen, Viewpoint};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;

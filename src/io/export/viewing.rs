@@ -2,8 +2,8 @@
 
 use super::event::{Event, Reporter};
 use crate::io::Failure;
-use crate::render::{FiguresProduct, Job, Partial, Product, Quality, Renderer, Unfit, Wanted};
 use brillianteer_picture::Scoped;
+use brillianteer_render::{FiguresProduct, Job, Partial, Product, Quality, Renderer, Unfit, Wanted};
 use brillianteer_scene::{Film, Glare, Medium, Scene, Side, Specimen, Stone, View, Viewpoint};
 use brillianteer_trace::ray::Camera;
 use brillianteer_trace::{beam, ray};

@@ -20,9 +20,9 @@ pub use html::report_html;
 
 use super::export::{Reporter, Viewing, WorkShares};
 use super::{Failure, WriteError, pdf, write as write_whole};
-use crate::render::Renderer;
 use brillianteer_base::Watch;
 use brillianteer_picture::{PaperSize, Report, report_pages};
+use brillianteer_render::Renderer;
 use std::path::Path;
 use stone::ReportedStone;
 

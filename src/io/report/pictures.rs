@@ -4,7 +4,6 @@ use crate::io::Failure;
 use crate::io::export::{Reporter, ScopeStill, Viewing, note};
 use crate::io::lighting;
 use crate::io::png_bytes::png;
-use crate::render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
 use ::png::{BitDepth, ColorType};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -15,6 +14,7 @@ use brillianteer_picture::{
     Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram,
     named, profile,
 };
+use brillianteer_render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
 use brillianteer_scene::Scene;
 use std::sync::Arc;
 

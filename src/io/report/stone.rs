@@ -8,12 +8,12 @@ use crate::io::export::{
     Event, FigureReport, HeartsReport, MeasureReport, Reporter, Viewing, WorkShares, hearts, light_measures,
     measure,
 };
-use crate::render::Renderer;
 use brillianteer_base::Watch;
 use brillianteer_cut::{Cut, Outline};
 use brillianteer_math::{Basis, Symmetry};
 use brillianteer_measure::{Interval, MeasureName, facet_deviations};
 use brillianteer_picture::Scoped;
+use brillianteer_render::Renderer;
 use glam::DVec3;
 
 /// The number of alike parts from which on a stone is measured to the finer bound of unresolved light, and both bounds.

@@ -1,9 +1,9 @@
 use super::*;
 use crate::io::drawing_png::legible::assert_legible;
 use crate::io::{cut_file, library};
-use crate::render::{Card, Wanted};
 use brillianteer_base::unwatched;
 use brillianteer_measure::STANDARD_ERROR;
+use brillianteer_render::{Card, Wanted};
 use brillianteer_scene::{Specimen, Viewpoint};
 
 fn specimen(text: &str) -> Specimen {

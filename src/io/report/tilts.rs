@@ -3,11 +3,11 @@
 use crate::io::Failure;
 use crate::io::export::Viewing;
 use crate::io::plot::{PlotAxis, PlotCurve, PlotError, curves};
-use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use brillianteer_base::Watch;
 use brillianteer_measure::{LightMeasures, MeasureName, MeasureSettings};
 use brillianteer_optics::line;
 use brillianteer_picture::EmbeddedDrawing;
+use brillianteer_render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use brillianteer_scene::Viewpoint;
 
 /// The greatest tilt to either side, degrees, and the step from one tilt to the next.

@@ -5,8 +5,8 @@ use crate::app::model::Model;
 use crate::app::model::action::SearchAction;
 use crate::app::model::cut_search::{SearchEvent, SearchState};
 use crate::app::model::task::Task;
-use crate::search::Goal;
 use brillianteer_cut::Design;
+use brillianteer_search::Goal;
 use std::path::{Path, PathBuf};
 
 /// Changes the search as the user asks.

@@ -2,9 +2,9 @@
 
 use super::appraisal::SearchError;
 use super::goal::Goal;
-use crate::render::{SweepKey, with_numbers};
 use brillianteer_cut::{Cut, Design, MachineSetting, ScaledSide, Unit};
 use brillianteer_math::Plane;
+use brillianteer_render::{SweepKey, with_numbers};
 
 /// The default range of a tier's angle to either side, degrees.
 const TIER_RANGE_DEG: f64 = 5.0;

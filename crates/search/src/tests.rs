@@ -4,13 +4,13 @@ use super::{
     AtLeastAtMost, DesignSearch, Goal, GoalMaterial, Objective, OneOrMore, SearchError, SearchOptions,
     SearchProgress, VariedNumber, estimated_classes,
 };
-use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
 use brillianteer_base::{Stopped, unwatched};
 use brillianteer_cut::{
     Crown, Cut, CutClass, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
 };
 use brillianteer_measure::MeasureSettings;
 use brillianteer_optics::line;
+use brillianteer_render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
 use brillianteer_scene::{DomeLight, Viewpoint};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -76,7 +76,7 @@ fn map_best(goal: &Goal, steps: usize, unresolved: f64) -> f64 {
         polarised: true,
     };
     let mut best = f64::NEG_INFINITY;
-    let each = |_, found: Result<crate::render::SweptStone, _>| {
+    let each = |_, found: Result<brillianteer_render::SweptStone, _>| {
         if let Ok(found) = found {
             let value = |measure: &super::GoalMeasure| {
                 measure.weight * measure.of.of(&found.measures).unwrap().middle()

@@ -6,11 +6,11 @@ use super::kept_shape::estimated_class;
 use super::objective::PARTS;
 use super::outcome::SearchOutcome;
 use super::run::DesignSearch;
-use crate::render::Sweep;
 use brillianteer_base::Watch;
 use brillianteer_cut::{CutClass, Design};
 use brillianteer_measure::{Interval, MeasureName, MeasureSettings};
 use brillianteer_optics::line;
+use brillianteer_render::Sweep;
 use brillianteer_scene::{Specimen, Viewpoint};
 use std::cmp::Ordering;
 

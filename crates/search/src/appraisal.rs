@@ -1,9 +1,9 @@
 //! The appraisal of a design by a goal, and the reasons why there is none.
 
 use super::goal::{GoalFault, GoalMaterial};
-use crate::render::SweepError;
 use brillianteer_math::rounded;
 use brillianteer_measure::{Interval, MeasureName};
+use brillianteer_render::SweepError;
 use brillianteer_scene::SpecimenError;
 
 /// The reason why a design cannot be appraised, or a search cannot begin.

@@ -6,11 +6,11 @@ use super::kept_corners::KeptCorners;
 use super::limits::GeometryLimit;
 use super::numbers::{AS_IT_IS, VariedNumber};
 use super::terms::{GoalView, Term, views_and_terms};
-use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
 use brillianteer_base::{Watch, at_once};
 use brillianteer_cut::{Cut, Design, TierOutcome, Tiers};
 use brillianteer_measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use brillianteer_optics::line;
+use brillianteer_render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
 use brillianteer_scene::{Specimen, Stone};
 
 /// The part of a number's range by which it is changed for the derivatives of the geometry.
