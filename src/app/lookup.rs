@@ -1,7 +1,8 @@
 //! The backplate of pictures of backgrounds behind glass, and the conversion of their light for the screen.
 
-use crate::io::background::BackgroundRef;
-use brillianteer_picture::{Develop, Linear, Pattern, Tone, develop};
+use brillianteer_picture::{Develop, Linear, Tone, develop};
+use brillianteer_scene::BackgroundRef;
+use brillianteer_scene::Pattern;
 use egui::ColorImage;
 
 /// The backplate where a picture needs one and none is chosen.

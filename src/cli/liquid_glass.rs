@@ -7,12 +7,13 @@ use super::options::number;
 use super::picture_options::film_size;
 use super::picturing::within;
 use super::progress::WorkProgress;
-use crate::io::background::BackgroundRef;
+use crate::io::background;
 use crate::io::{Failure, STANDARD, is_standard, write_linear_exr, write_rgba_png};
 use brillianteer_optics::linear_from_encoded;
 use brillianteer_picture::liquid_glass::{Cost, GlassPane, LightFrom, PaneQuality, Shifts, layer, pane};
 use brillianteer_picture::{Develop, Linear, Tone, develop};
 use brillianteer_render::{Job, PaneProduct, Quality, Renderer};
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Panorama;
 use clap::Args;
 use glam::{DVec2, DVec4};
@@ -238,7 +239,7 @@ impl LiquidGlass {
     /// Reads the background as a picture of the size `self.size`, and prints its warnings.
     fn ground(&self) -> Result<Panorama, Failure> {
         let asked = BackgroundRef::read(&self.background, Path::new(""))?;
-        let Some(reading) = asked.filling(self.size)? else {
+        let Some(reading) = background::filling(&asked, self.size)? else {
             let problem = format!("--background {}: a pane needs something behind it", self.background);
             return Err(Failure::Usage(problem));
         };

@@ -1,12 +1,13 @@
 //! The files of a refraction map, which `refraction-map` traces and `refraction-import` reads.
 
 use super::console::say;
-use crate::io::background::BackgroundRef;
+use crate::io::background;
 use crate::io::refraction::{
     Coding, MOST_MEGABYTES, Page, diffuse_path, paths, takes, write_diffuse, write_page, write_places,
 };
 use crate::io::{Failure, is_standard, write_rgba_png};
 use brillianteer_picture::{Develop, RefractionMap, Tone, develop, refract};
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Panorama;
 use clap::ValueEnum;
 use glam::DVec2;
@@ -127,7 +128,7 @@ impl MapFiles<'_> {
     /// Returns the bytes of the pattern's or photograph's file for the page. Where the page cannot take them, it returns
     /// `None` and prints a note.
     fn page_background(&self) -> Result<Option<Vec<u8>>, Failure> {
-        let Some(bytes) = self.background.bytes()? else { return Ok(None) };
+        let Some(bytes) = background::bytes(&self.background)? else { return Ok(None) };
         if takes(&bytes) {
             return Ok(Some(bytes));
         }

@@ -5,7 +5,7 @@ use super::options::unfit;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::specimen::note_colour;
 use crate::io::assembly::Assembly;
-use crate::io::background::BackgroundRef;
+use crate::io::background;
 use crate::io::export::Event;
 use crate::io::lighting;
 use crate::io::{Failure, Finish, StoredLight};
@@ -15,6 +15,7 @@ use brillianteer_render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{Film, Mipmap, Scene, View, Viewpoint};
 use brillianteer_trace::environment::Lighting;
 use brillianteer_trace::ray::{self, Camera, RayOptions};
@@ -117,7 +118,7 @@ impl<'a> PictureSetup<'a> {
             develop.background = plain;
         }
         let [across, down] = options.size;
-        let reading = background.picture_behind(across.max(down))?;
+        let reading = background::picture_behind(&background, across.max(down))?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| say(&format!("warning: {w}")));
         let photo = reading.map(|reading| Arc::new(Mipmap::new(reading.panorama)));
         let mut studio = Self {

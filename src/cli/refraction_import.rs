@@ -6,10 +6,11 @@ use super::map_files::{MapFiles, MapKind, folder, kinds_or_usual};
 use super::options::number;
 use super::picturing::within;
 use super::specimen::stem;
-use crate::io::background::BackgroundRef;
+use crate::io::background;
 use crate::io::refraction::{MOST_MAP_PIXELS, Template, read, write_template};
 use crate::io::{Failure, is_standard};
-use brillianteer_picture::Background;
+use brillianteer_scene::Background;
+use brillianteer_scene::BackgroundRef;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -100,7 +101,7 @@ impl RefractionImport {
         found.warnings.iter().for_each(|warning| say(&format!("warning: {warning}")));
         found.notes.iter().for_each(|note| say(&format!("note: {note}")));
         let [width, height] = found.map.size;
-        let photo = background.picture_behind(width.max(height))?;
+        let photo = background::picture_behind(&background, width.max(height))?;
         photo.iter().flat_map(|photo| &photo.warnings).for_each(|w| say(&format!("warning: {w}")));
         let stem = stem(&self.pictures[0]);
         let description = format!(

@@ -1,6 +1,5 @@
 //! The bodies that a picture under light shows: a single stone, or the stones and the metal of a scene in their places.
 
-use super::background::BackgroundRef;
 use super::built_design::{BuiltDesign, OtherReadings};
 use super::mesh::read_shaded;
 use super::mesh_options::{MeshOptions, MeshPart};
@@ -9,6 +8,7 @@ use super::{Failure, is_standard, library};
 use brillianteer_cut::{Design, MaterialRef, Size};
 use brillianteer_math::{ShadedMesh, bounds};
 use brillianteer_optics::{Material, Metal};
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{
     Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene, Specimen, Viewpoint,
     overlapping,

@@ -8,7 +8,8 @@ use super::stored_light::{MOST_HELD, StoredLight};
 #[cfg(feature = "exr")]
 use ::exr::{math::Vec2, meta::attribute::Chromaticities};
 use brillianteer_base::{Stopped, Watch};
-use brillianteer_picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows, fxaa};
+use brillianteer_picture::{Develop, LightRows, Overlay, OverlayDrawing, develop_rows, fxaa};
+use brillianteer_scene::Background;
 use brillianteer_trace::sampling::LitScene;
 use std::path::Path;
 

@@ -2,7 +2,6 @@
 //!
 //! Lengths are in mm, angles in degrees. Every error names file, line and key, and says what was expected.
 
-use super::background::BackgroundRef;
 use super::mesh_options::MeshPart;
 use super::text;
 use super::toml_format::check_format;
@@ -10,6 +9,7 @@ use super::toml_text::TomlText;
 use brillianteer_base::{Fault, FileError};
 use brillianteer_cut::{MaterialRef, Size};
 use brillianteer_optics::Metal;
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{LIGHTS, Layout, MOST_STONES, Movement, Pose, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};

@@ -3,11 +3,12 @@
 
 use brillianteer::base::{Stopped, unwatched};
 use brillianteer::cut::{Glass, Sides};
-use brillianteer::io::background::BackgroundRef;
+use brillianteer::io::background::picture;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Dispersion, Illuminant, Material, Strata};
 use brillianteer::picture::LUMINANCE;
 use brillianteer::picture::spectral::expose;
+use brillianteer::scene::BackgroundRef;
 use brillianteer::scene::{Film, Instance, Light, Mipmap, Scene, View};
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, RayOptions};
@@ -43,7 +44,7 @@ fn column(film: Film, bands: (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     material.dispersion = Dispersion::Abbe { n_d: 1.272, v_d: 2.0 };
     let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);
     let scene = Scene { instances: vec![stone], metals: vec![], unit_mm: 20.0 };
-    let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
+    let slit = picture(&BackgroundRef::read("slit", Path::new("")).unwrap()).unwrap().unwrap().panorama;
     let slit = Mipmap::new(slit);
     shot((&scene, &slit), film, bands, sampling)
 }

@@ -2,8 +2,9 @@
 
 use super::linear::LightRows;
 use super::tone::reachable;
-use super::{Background, Bloom, Linear, Tone, background};
+use super::{Bloom, Linear, Tone};
 use brillianteer_optics::SrgbEncoder;
+use brillianteer_scene::Background;
 use rayon::prelude::*;
 use std::convert::Infallible;
 
@@ -133,7 +134,7 @@ fn dither(x: u32, y: u32) -> f64 {
 fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, threshold: f64, encoder: &SrgbEncoder) -> [u8; 4] {
     let opaque = |[r, g, b, _]: [f32; 4]| [r, g, b].map(|c| encoder.encode_dithered(f64::from(c), threshold));
     if let Some(colour) = behind {
-        let [r, g, b] = opaque(background::laid_over(pixel, colour));
+        let [r, g, b] = opaque(laid_over(pixel, colour));
         return [r, g, b, 255];
     }
     let codes = opaque(pixel);
@@ -144,9 +145,21 @@ fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, threshold: f64, encoder: &
     [r, g, b, cover]
 }
 
+/// Lays a premultiplied pixel over an opaque colour.
+fn laid_over([r, g, b, cover]: [f32; 4], colour: [f32; 3]) -> [f32; 4] {
+    let bare = 1.0 - cover;
+    [r + bare * colour[0], g + bare * colour[1], b + bare * colour[2], 1.0]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cover_hides_what_lies_behind() {
+        assert_eq!(laid_over([0.3, 0.2, 0.1, 1.0], [1.0; 3]), [0.3, 0.2, 0.1, 1.0]);
+        assert_eq!(laid_over([0.0; 4], [0.5; 3]), [0.5, 0.5, 0.5, 1.0]);
+    }
     use brillianteer_optics::linear_from_encoded;
 
     fn one(pixel: [f32; 4], manner: &Develop) -> [u8; 4] {

@@ -1,6 +1,5 @@
 //! Floor 4: pictures. A picture combines a view, a scope and a reading of the light; `trace` does the tracing itself.
 
-mod background;
 mod bloom;
 mod by_beams;
 #[cfg(feature = "gpu")]
@@ -37,7 +36,6 @@ mod tone;
 pub mod vector;
 mod views;
 
-pub use background::Background;
 pub use bloom::Bloom;
 pub use brillianteer_optics::LUMINANCE;
 pub use by_beams::ByBeams;
@@ -57,7 +55,7 @@ pub use name_error::NameError;
 pub use overlay::{Code, Overlay, OverlayDrawing, lay};
 pub use paint::paint;
 pub use palette::Palette;
-pub use patterns::{PATTERN_SIDE, PATTERN_SPAN, Pattern};
+pub use patterns::{PATTERN_SIDE, pattern_drawing};
 pub use profile::profile;
 pub use raster::Rows;
 pub use refraction::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey, refract};

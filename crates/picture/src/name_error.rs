@@ -1,6 +1,6 @@
-//! The error of a text that names no tone, quality, overlay or background.
+//! The error of a text that names no tone, quality or overlay.
 
-/// The reason why a text names no tone, quality, overlay or background; the message lists the names.
+/// The reason why a text names no tone, quality or overlay; the message lists the names.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     /// The text names no tone.
@@ -17,13 +17,6 @@ pub enum NameError {
         /// The known names.
         known: String,
     },
-    /// The text names no colour, and no gradient of two.
-    #[error(
-        "background '{}': give transparent, black, white, grey, a colour such as #20262e, or two, top-bottom, such as \
-         #404850-#101215",
-        start(.0)
-    )]
-    Background(String),
 }
 
 /// Returns a text, cut to a readable length.

@@ -3,32 +3,13 @@
 
 mod page;
 
+use brillianteer_scene::Pattern;
 use std::fmt::Write as _;
 use svg::Document;
 use svg::node::element::{Path, Rectangle};
 
 /// Side of a pattern, in units of its drawing.
 pub const PATTERN_SIDE: u32 = 2048;
-
-/// The width of a pattern behind a picture, in widths of the picture: the stones also bend light in from beside it.
-pub const PATTERN_SPAN: f64 = 2.0;
-
-/// A background that the program draws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Pattern {
-    /// A page of text with pictures.
-    Page,
-    /// Fine lines, of one colour across and of another down.
-    Grid,
-    /// Black squares, as on a chessboard.
-    Checks,
-    /// Black and white stripes that run across.
-    Stripes,
-    /// Black discs in rows.
-    Dots,
-    /// A white line across a dark field, as in a spectroscope.
-    Slit,
-}
 
 const INK: &str = "#000000";
 const PAPER: &str = "#ffffff";
@@ -39,68 +20,44 @@ const STEP: u32 = 64;
 /// Half the height of the slit: so narrow that a prism near it keeps three images of it apart.
 const HALF_SLIT: u32 = 5;
 
-impl Pattern {
-    /// The patterns with their names.
-    pub const NAMES: [(&str, Self); 6] = [
-        ("page", Self::Page),
-        ("grid", Self::Grid),
-        ("checks", Self::Checks),
-        ("stripes", Self::Stripes),
-        ("dots", Self::Dots),
-        ("slit", Self::Slit),
-    ];
-
-    /// Returns the pattern of this name; upper and lower case are the same.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, pattern)| *pattern)
-    }
-
-    /// Returns the pattern's name.
-    pub fn name(self) -> &'static str {
-        Self::NAMES.iter().find(|(_, pattern)| *pattern == self).map_or("", |(name, _)| name)
-    }
-
-    /// Draws the pattern.
-    pub fn drawing(self) -> Document {
-        let sheet = Document::new().set("viewBox", (0, 0, PATTERN_SIDE, PATTERN_SIDE));
-        let all = || 0..PATTERN_SIDE / STEP;
-        match self {
-            Self::Page => page::page(sheet),
-            Self::Grid => {
-                let across = all().map(|k| (0, k * STEP + STEP / 2 - 3, PATTERN_SIDE, 6));
-                let down = all().map(|k| (k * STEP + STEP / 2 - 3, 0, 6, PATTERN_SIDE));
-                let paper = sheet.add(rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", PAPER));
-                paper
-                    .add(rectangles(across).set("fill", "#c01020"))
-                    .add(rectangles(down).set("fill", "#1030c0"))
+/// Draws a pattern.
+pub fn pattern_drawing(pattern: Pattern) -> Document {
+    let sheet = Document::new().set("viewBox", (0, 0, PATTERN_SIDE, PATTERN_SIDE));
+    let all = || 0..PATTERN_SIDE / STEP;
+    match pattern {
+        Pattern::Page => page::page(sheet),
+        Pattern::Grid => {
+            let across = all().map(|k| (0, k * STEP + STEP / 2 - 3, PATTERN_SIDE, 6));
+            let down = all().map(|k| (k * STEP + STEP / 2 - 3, 0, 6, PATTERN_SIDE));
+            let paper = sheet.add(rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", PAPER));
+            paper.add(rectangles(across).set("fill", "#c01020")).add(rectangles(down).set("fill", "#1030c0"))
+        }
+        Pattern::Checks => {
+            let squares = all().flat_map(|y| (0..PATTERN_SIDE / STEP / 2).map(move |x| (x, y)));
+            let place = |(x, y)| ((2 * x + y % 2) * STEP, y * STEP, STEP, STEP);
+            sheet.add(rectangles(squares.map(place)).set("fill", INK))
+        }
+        Pattern::Stripes => {
+            let stripes = all().step_by(2).map(|y| (0, y * STEP, PATTERN_SIDE, STEP));
+            sheet.add(rectangles(stripes).set("fill", INK))
+        }
+        Pattern::Dots => {
+            let (radius, middle) = (STEP / 4, STEP / 2);
+            let mut discs = String::new();
+            for (x, y) in all().flat_map(|y| all().map(move |x| (x * STEP, y * STEP + middle))) {
+                let (left, across) = (x + middle - radius, 2 * radius);
+                // Writing to a string cannot fail.
+                let _ = write!(
+                    discs,
+                    "M{left},{y}a{radius},{radius} 0 1 0 {across},0a{radius},{radius} 0 1 0 -{across},0"
+                );
             }
-            Self::Checks => {
-                let squares = all().flat_map(|y| (0..PATTERN_SIDE / STEP / 2).map(move |x| (x, y)));
-                let place = |(x, y)| ((2 * x + y % 2) * STEP, y * STEP, STEP, STEP);
-                sheet.add(rectangles(squares.map(place)).set("fill", INK))
-            }
-            Self::Stripes => {
-                let stripes = all().step_by(2).map(|y| (0, y * STEP, PATTERN_SIDE, STEP));
-                sheet.add(rectangles(stripes).set("fill", INK))
-            }
-            Self::Dots => {
-                let (radius, middle) = (STEP / 4, STEP / 2);
-                let mut discs = String::new();
-                for (x, y) in all().flat_map(|y| all().map(move |x| (x * STEP, y * STEP + middle))) {
-                    let (left, across) = (x + middle - radius, 2 * radius);
-                    // Writing to a string cannot fail.
-                    let _ = write!(
-                        discs,
-                        "M{left},{y}a{radius},{radius} 0 1 0 {across},0a{radius},{radius} 0 1 0 -{across},0"
-                    );
-                }
-                sheet.add(Path::new().set("d", discs).set("fill", INK))
-            }
-            Self::Slit => {
-                let dark = rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", INK);
-                let slit = (0, PATTERN_SIDE / 2 - HALF_SLIT, PATTERN_SIDE, 2 * HALF_SLIT);
-                sheet.add(dark).add(rectangle(slit).set("fill", PAPER))
-            }
+            sheet.add(Path::new().set("d", discs).set("fill", INK))
+        }
+        Pattern::Slit => {
+            let dark = rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", INK);
+            let slit = (0, PATTERN_SIDE / 2 - HALF_SLIT, PATTERN_SIDE, 2 * HALF_SLIT);
+            sheet.add(dark).add(rectangle(slit).set("fill", PAPER))
         }
     }
 }
@@ -125,11 +82,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn patterns_are_found_by_their_names() {
+    fn patterns_are_short_drawings() {
         for (name, pattern) in Pattern::NAMES {
-            assert_eq!(Pattern::named(&name.to_uppercase()), Some(pattern));
-            assert!(pattern.drawing().to_string().len() < 1 << 17, "{name}");
+            assert!(pattern_drawing(pattern).to_string().len() < 1 << 17, "{name}");
         }
-        assert_eq!(Pattern::named("pages"), None);
     }
 }

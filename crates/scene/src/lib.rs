@@ -1,5 +1,7 @@
 //! Floor 2: stones, the viewpoint, and the light. Data only.
 
+mod background;
+mod background_ref;
 mod body;
 mod body_data;
 mod companions;
@@ -17,6 +19,7 @@ mod mounting;
 mod movement;
 mod overlap;
 mod panorama;
+mod pattern;
 mod scene_ring;
 mod scope;
 mod specimen;
@@ -25,6 +28,8 @@ mod view;
 mod viewpoint;
 mod worlds;
 
+pub use background::{Background, UnknownColour};
+pub use background_ref::BackgroundRef;
 pub use body::Body;
 pub use brillianteer_math::Pose;
 pub use companions::{Companion, Companions};
@@ -45,6 +50,7 @@ pub use mounting::{
 pub use movement::{Movement, UnknownMovement, has_wave};
 pub use overlap::overlapping;
 pub use panorama::{Panorama, PanoramaError};
+pub use pattern::{PATTERN_SPAN, Pattern};
 pub use scene_ring::{RingMetal, RingPlan, RingPlanError, SceneRing};
 pub use scope::{
     ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, VIEWER_CONES_DEG, elevation_deg,

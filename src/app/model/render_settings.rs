@@ -2,10 +2,10 @@
 
 use crate::app::liquid::Liquid;
 use crate::app::studio::Smoothing;
-use crate::io::background::BackgroundRef;
 use crate::io::scene_file::SceneFile;
 use brillianteer_picture::Bloom;
 use brillianteer_render::USUAL_BOUNCES;
+use brillianteer_scene::BackgroundRef;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

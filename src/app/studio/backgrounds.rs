@@ -3,9 +3,10 @@
 
 use crate::app::urgency;
 use crate::io::Failure;
-use crate::io::background::BackgroundRef;
+use crate::io::background;
 use brillianteer_base::{Watch, unwatched};
 use brillianteer_picture::PATTERN_SIDE;
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Mipmap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -75,7 +76,8 @@ impl Making {
 
 /// Makes a picture that hangs behind a film.
 fn made_of(asked: &BackgroundRef, film: u32, watch: Watch) -> Made {
-    Ok(asked.picture_watched(film, watch)?.map(|reading| Arc::new(Mipmap::new(reading.panorama))))
+    Ok(background::picture_watched(asked, film, watch)?
+        .map(|reading| Arc::new(Mipmap::new(reading.panorama))))
 }
 
 impl Backgrounds {
@@ -165,7 +167,7 @@ impl Backgrounds {
             return Ok(Arc::clone(picture));
         }
         let no_picture = || Failure::Input("the background is not a picture".to_owned());
-        let reading = asked.picture_behind(COARSE_FILM)?.ok_or_else(no_picture)?;
+        let reading = background::picture_behind(asked, COARSE_FILM)?.ok_or_else(no_picture)?;
         let picture = Arc::new(Mipmap::new(reading.panorama));
         self.coarse = Some((asked.clone(), Arc::clone(&picture)));
         Ok(picture)
@@ -194,7 +196,7 @@ mod tests {
         let stop = |_: f64| ControlFlow::Break(());
         assert!(matches!(backgrounds.fine(&asked, &stop), Err(Failure::Stopped)));
         let fine = backgrounds.fine(&asked, &unwatched).unwrap().unwrap();
-        let whole = asked.picture_behind(backgrounds.film).unwrap().unwrap().panorama;
+        let whole = background::picture_behind(&asked, backgrounds.film).unwrap().unwrap().panorama;
         assert!(*fine.picture() == whole && backgrounds.preparing().is_none());
         assert_eq!(side(backgrounds.at_hand(&asked)), 2 * coarse);
     }

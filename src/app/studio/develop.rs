@@ -1,10 +1,11 @@
 //! Develops the light that was traced for a shot, and draws its overlay over it.
 
 use super::order::{Shot, Smoothing, TakenPicture};
-use crate::io::background::BackgroundRef;
 use crate::io::refraction::code_of;
 use brillianteer_base::{Stopped, Watch};
-use brillianteer_picture::{Background, Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
+use brillianteer_picture::{Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
+use brillianteer_scene::Background;
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Film;
 use egui::ColorImage;
 use std::sync::Arc;

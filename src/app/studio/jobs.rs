@@ -3,7 +3,6 @@
 use super::effort::Effort;
 use super::order::{FiguresOrder, Shot};
 use crate::app::lookup::backdrop;
-use crate::io::background::BackgroundRef;
 use brillianteer_measure::Bounds;
 use brillianteer_optics::line;
 use brillianteer_picture::{Backdrop, Scoped, filling};
@@ -11,6 +10,7 @@ use brillianteer_render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,
 };
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
 use brillianteer_trace::beam::BeamOptions;
 use brillianteer_trace::ray::RayOptions;

@@ -1,9 +1,9 @@
 //! Finds how the points of a view have moved between two renders, for temporal antialiasing.
 
 use super::order::{Shot, Slot};
-use crate::io::background::BackgroundRef;
 use brillianteer_cut::{Cut, Glass};
 use brillianteer_picture::{Linear, MotionVector, TemporalHistory};
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{Body, Companions, Film, Pose, Specimen, View};
 use brillianteer_trace::ray;
 use brillianteer_trace::sampling::LitScene;

@@ -145,11 +145,12 @@ mod tests {
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::{ShotLight, survey};
-    use crate::io::background::BackgroundRef;
     use crate::io::lighting;
     use brillianteer_base::unwatched;
-    use brillianteer_picture::{Background, Bloom, Develop, develop, fxaa};
+    use brillianteer_picture::{Bloom, Develop, develop, fxaa};
     use brillianteer_render::{Quality, Steps};
+    use brillianteer_scene::Background;
+    use brillianteer_scene::BackgroundRef;
     use brillianteer_scene::{Companions, Glare, Pose, Projection, View};
     use brillianteer_trace::environment::Lighting;
     use brillianteer_trace::gpu::Gpu;

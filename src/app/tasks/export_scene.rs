@@ -4,10 +4,10 @@
 use crate::app::model::export::{ExportPlan, kinds};
 use crate::app::studio::Shot;
 use crate::app::studio::hung;
-use crate::io::background::BackgroundRef;
 use crate::io::mesh::write_shaded;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, RingEntry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen};
 use glam::DVec3;
 use std::path::{Path, PathBuf};

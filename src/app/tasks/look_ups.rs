@@ -5,7 +5,7 @@ use super::lookup::{Lookup, LookupRequest, coarse_picture};
 use super::runner::Turn;
 use super::{Key, Outside, TaskAnswer, fault};
 use crate::app::studio::Slot;
-use crate::io::background::BackgroundRef;
+use brillianteer_scene::BackgroundRef;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -3,11 +3,12 @@
 use crate::app::lookup::as_screens;
 use crate::app::studio::{COARSE_FILM, Grade, SPAN, Shot, TakenPicture};
 use crate::io::Failure;
-use crate::io::background::BackgroundRef;
+use crate::io::background;
 use brillianteer_base::{Watch, unwatched};
 use brillianteer_picture::liquid_glass::{GlassPane, PreparedPane, SeenThrough};
 use brillianteer_picture::{Linear, RefractionMap, refract};
 use brillianteer_picture::{PATTERN_SIDE, filling};
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Panorama;
 use glam::DVec2;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -69,7 +70,7 @@ impl Lookup {
 /// is not.
 pub fn coarse_picture(request: &LookupRequest) -> Option<Result<TakenPicture, Failure>> {
     let BackgroundRef::World(_) = request.behind else { return None };
-    let reading = request.behind.picture_behind(COARSE_FILM).ok()??;
+    let reading = background::picture_behind(&request.behind, COARSE_FILM).ok()??;
     let levels = Levels { whole: Arc::new(reading.panorama), halved: vec![] };
     let behind = Some((request.behind.clone(), levels));
     Some(Backgrounds { behind, ..Backgrounds::default() }.picture(request, &unwatched))
@@ -134,7 +135,8 @@ impl Backgrounds {
             Some((_, levels)) => levels,
             None => {
                 let no_picture = || Failure::Input("the background is not a picture".to_owned());
-                let reading = background.picture_watched(PATTERN_SIDE / 2, watch)?.ok_or_else(no_picture)?;
+                let reading = background::picture_watched(&background, PATTERN_SIDE / 2, watch)?
+                    .ok_or_else(no_picture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }
         };

@@ -11,10 +11,10 @@ use brillianteer_base::Watch;
 use brillianteer_measure::facet_deviations;
 use brillianteer_optics::linear_from_encoded;
 use brillianteer_picture::{
-    Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram,
-    named, profile,
+    Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram, named, profile,
 };
 use brillianteer_render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
+use brillianteer_scene::Background;
 use brillianteer_scene::Scene;
 use std::sync::Arc;
 

@@ -1,6 +1,5 @@
 //! The keys of a scene file, in the order in which they are written, and their ranges.
 
-use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
 use super::super::cut_file::values::{Numbers, OneOf, TomlTable};
 use super::super::mesh_options::MeshPart;
@@ -12,6 +11,7 @@ use super::shared::{DEGREES, SizeForm, likely, material, place_mm, shown, within
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
 use brillianteer_base::Fault;
 use brillianteer_cut::is_printable;
+use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{Layout, Movement};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};

@@ -57,7 +57,7 @@ fn a_layout_and_places_read_as_written() {
             [[stone]]",
     );
     let scene = parse(&behind, "x.toml", None).unwrap();
-    assert_eq!(scene.background, Some(BackgroundRef::Pattern(brillianteer_picture::Pattern::Page)));
+    assert_eq!(scene.background, Some(BackgroundRef::Pattern(brillianteer_scene::Pattern::Page)));
     assert_eq!((scene.background_distance_mm, scene.strength), (Some(12.0), 0.5));
     assert_eq!((scene.angle_of_view, scene.exposure), (Some(45.0), -0.5));
     assert_eq!((scene.light_turn, scene.light_upright), (30.0, true));

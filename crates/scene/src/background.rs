@@ -1,7 +1,5 @@
 //! The background: the colour of a picture where no stone covers it.
 
-use super::NameError;
-use super::drawing::hex;
 use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
 use std::fmt;
 use std::str::FromStr;
@@ -37,16 +35,18 @@ impl Background {
     }
 }
 
-/// Lays a premultiplied pixel over an opaque colour.
-pub(super) fn laid_over([r, g, b, cover]: [f32; 4], colour: [f32; 3]) -> [f32; 4] {
-    let bare = 1.0 - cover;
-    [r + bare * colour[0], g + bare * colour[1], b + bare * colour[2], 1.0]
-}
+/// A text that names no colour, and no gradient of two; cut to a readable length.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "background '{0}': give transparent, black, white, grey, a colour such as #20262e, or two, top-bottom, such as \
+     #404850-#101215"
+)]
+pub struct UnknownColour(pub String);
 
 impl FromStr for Background {
-    type Err = NameError;
+    type Err = UnknownColour;
 
-    fn from_str(text: &str) -> Result<Self, NameError> {
+    fn from_str(text: &str) -> Result<Self, UnknownColour> {
         let text = text.trim().to_ascii_lowercase();
         match text.split_once('-') {
             None if text == "transparent" => Ok(Self::Transparent),
@@ -62,7 +62,10 @@ impl fmt::Display for Background {
     /// Writes text that parses back to the same background, each colour rounded to 8 bits.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let byte = |c: f32| (encoded_from_linear(f64::from(c)).clamp(0.0, 1.0) * 255.0).round() as u8;
-        let code = |colour: &[f32; 3]| hex(colour.map(byte));
+        let code = |colour: &[f32; 3]| {
+            let [red, green, blue] = colour.map(byte);
+            format!("#{red:02x}{green:02x}{blue:02x}")
+        };
         match self {
             Self::Transparent => f.write_str("transparent"),
             Self::Plain(colour) => f.write_str(&code(colour)),
@@ -75,14 +78,14 @@ impl fmt::Display for Background {
 const GREY: &str = "#808080";
 
 /// Reads one colour from its name or its `#rrggbb` code.
-fn colour(text: &str) -> Result<[f32; 3], NameError> {
+fn colour(text: &str) -> Result<[f32; 3], UnknownColour> {
     let code = match text {
         "black" => "#000000",
         "white" => "#ffffff",
         "grey" | "gray" => GREY,
         other => other,
     };
-    let wrong = || NameError::Background(text.to_owned());
+    let wrong = || UnknownColour(text.chars().take(30).collect());
     let digits = code.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
     let number = u32::from_str_radix(digits.ok_or_else(wrong)?, 16).map_err(|_| wrong())?;
     let linear = |shift: u32| linear_from_encoded(f64::from((number >> shift) & 255) / 255.0) as f32;
@@ -125,11 +128,9 @@ mod tests {
     }
 
     #[test]
-    fn a_gradient_runs_down_and_cover_hides_it() {
+    fn a_gradient_runs_down() {
         let gradient = Background::Gradient { top: [1.0; 3], bottom: [0.0; 3] };
         let column: Vec<f32> = (0..4).filter_map(|y| gradient.row(y, 4)).map(|c| c[0]).collect();
         assert_eq!(column, [0.875, 0.625, 0.375, 0.125]);
-        assert_eq!(laid_over([0.3, 0.2, 0.1, 1.0], [1.0; 3]), [0.3, 0.2, 0.1, 1.0]);
-        assert_eq!(laid_over([0.0; 4], [0.5; 3]), [0.5, 0.5, 0.5, 1.0]);
     }
 }
