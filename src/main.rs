@@ -20,7 +20,7 @@ fn editor() -> Option<brillianteer::cli::EditorOpener> {
     #[cfg(feature = "app")]
     return Some(|file, mesh| {
         use brillianteer::app::WindowError;
-        use brillianteer::io::Failure;
+        use brillianteer::base::Failure;
         brillianteer::app::run(file, mesh).map_err(|error| match &error {
             WindowError::NoSuchPainter(_) => Failure::Usage(error.to_string()),
             WindowError::NoDisplay(_) | WindowError::NoWindow(_) => Failure::NoWindow(error.to_string()),

@@ -2,7 +2,7 @@
 
 use super::console::{STANDARD_OUTPUT, print, say};
 use super::specimen::stem;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,8 @@
 //! The program's output: results on standard output; notes, warnings and errors on standard error.
 
 use crate::io::export::Event;
-use crate::io::{Failure, is_standard};
+use crate::io::is_standard;
+use brillianteer_base::Failure;
 use std::borrow::Cow;
 use std::path::Path;
 

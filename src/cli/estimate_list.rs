@@ -1,7 +1,7 @@
 //! The list of a stone's class, estimated after what GIA publishes.
 
 use super::specimen::LoadedSpecimen;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::{ClassEstimate, Unit};
 use brillianteer_math::fixed;
 use brillianteer_measure::brilliant_proportions;

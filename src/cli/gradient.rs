@@ -3,7 +3,7 @@
 use super::console::{json, print, say};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::{Cut, ScaledSide, Unit};
 use brillianteer_math::signed;
 use brillianteer_measure::{Interval, MeasureName};

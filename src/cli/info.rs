@@ -6,11 +6,11 @@ use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::specimen::{LoadedSpecimen, weight};
 use super::specimen_options::SpecimenOptions;
-use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::io::assembly::{Assembly, MadeRing};
 use crate::io::built_design::is_scene;
 use crate::io::mesh::MeshBody;
+use brillianteer_base::Failure;
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{
     AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,

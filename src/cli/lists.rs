@@ -3,7 +3,8 @@
 use super::console::{json, print};
 use crate::io::assembly::Assembly;
 use crate::io::library::{CUTS, SCENES, cut, scene};
-use crate::io::{Failure, cut_file, light_file, lighting, scene_file, scope_file};
+use crate::io::{cut_file, light_file, lighting, scene_file, scope_file};
+use brillianteer_base::Failure;
 use brillianteer_optics::{line, materials};
 use brillianteer_picture::{Picture, named, names};
 use brillianteer_scene::{LIGHTS, Scope, light};

@@ -5,7 +5,8 @@ use crate::io::background;
 use crate::io::refraction::{
     Coding, MOST_MEGABYTES, Page, diffuse_path, paths, takes, write_diffuse, write_page, write_places,
 };
-use crate::io::{Failure, is_standard, write_rgba_png};
+use crate::io::{is_standard, write_rgba_png};
+use brillianteer_base::Failure;
 use brillianteer_picture::{Develop, RefractionMap, Tone, develop, refract};
 use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Panorama;

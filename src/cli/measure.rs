@@ -8,8 +8,8 @@ use super::options::{LightOptions, ViewOptions, pupil_diameter, rock_angle, scop
 use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
-use crate::io::Failure;
 use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
+use brillianteer_base::Failure;
 use brillianteer_math::{fixed, signed};
 use brillianteer_measure::{
     ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,

@@ -3,7 +3,7 @@
 use super::options::{ViewOptions, number};
 use super::specimen::note_no_fire;
 use super::specimen_options::SpecimenOptions;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
 use brillianteer_optics::line;
 use brillianteer_render::{Sweep, SweepAxis, SweepKey};

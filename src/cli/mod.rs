@@ -55,7 +55,8 @@ mod without_window;
 
 use crate::io::built_design::hint;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{Failure, is_standard, report_made_folders};
+use crate::io::{is_standard, report_made_folders};
+use brillianteer_base::Failure;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::say;

@@ -3,7 +3,8 @@
 use super::choice::{TRACERS, one_of};
 use super::specimen::{LoadedSpecimen, note_colour};
 use crate::io::export::Viewing;
-use crate::io::{Failure, scope_file};
+use crate::io::scope_file;
+use brillianteer_base::Failure;
 use brillianteer_base::nearest;
 use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};
@@ -60,7 +61,7 @@ pub fn unfit(why: &Unfit, file: &str) -> Failure {
         | Unfit::NotConvex(_)
         | Unfit::OnlyBeams
         | Unfit::ManyPaths => {
-            return Failure::of_unfit(why, file);
+            return why.failure(file);
         }
     };
     Failure::Usage(format!("{why} ({options})"))

@@ -8,7 +8,8 @@ use crate::io::assembly::Assembly;
 use crate::io::background;
 use crate::io::export::Event;
 use crate::io::lighting;
-use crate::io::{Failure, Finish, StoredLight};
+use crate::io::{Finish, StoredLight};
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_picture::{Bloom, Develop, Overlay, Smoothing, Tone};
 use brillianteer_render::{

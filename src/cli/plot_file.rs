@@ -2,7 +2,8 @@
 
 use super::console::written;
 use crate::io::plot::PlotError;
-use crate::io::{Failure, WriteError, pdf, rasterize, write, write_png};
+use crate::io::{WriteError, pdf, rasterize, write, write_png};
+use brillianteer_base::Failure;
 use std::path::{Path, PathBuf};
 
 /// The width of a plot as PNG, in pixels.

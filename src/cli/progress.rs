@@ -2,8 +2,9 @@
 
 use super::console::{report, say};
 use super::progress_lines::ProgressLines;
+use crate::io::abandon_writes;
 use crate::io::export::Event;
-use crate::io::{Failure, abandon_writes};
+use brillianteer_base::Failure;
 use indicatif::{ProgressBar, ProgressStyle};
 #[cfg(unix)]
 use signal_hook::{

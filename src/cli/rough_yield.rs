@@ -4,7 +4,7 @@ use super::console::{json, print};
 use super::options::number;
 use super::specimen::{LoadedSpecimen, weight};
 use super::specimen_options::SpecimenOptions;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::{Finished, FitLimit, Rough, RoughError, Size};
 use clap::{ArgGroup, Args};
 use serde_json::{Value, json};

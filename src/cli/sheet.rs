@@ -6,7 +6,8 @@ use super::console::{json, print, say, written};
 use super::specimen::stem;
 use super::specimen_options::SpecimenOptions;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
-use crate::io::{Failure, is_standard, note_of_letters};
+use crate::io::{is_standard, note_of_letters};
+use brillianteer_base::Failure;
 use brillianteer_picture::PaperSize;
 use clap::Args;
 use serde_json::json;
@@ -91,7 +92,7 @@ impl SheetArguments {
 #[cfg(test)]
 mod tests {
     use super::super::run_line;
-    use crate::io::Failure;
+    use brillianteer_base::Failure;
     use std::path::Path;
 
     fn run(options: &[&str]) -> Result<(), Failure> {

@@ -1,7 +1,7 @@
 //! `completions` and `man`: print a shell's completion script, and manual pages.
 
 use super::console::print;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 use clap_mangen::Man;

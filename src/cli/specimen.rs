@@ -2,9 +2,10 @@
 
 use super::console::say;
 use crate::io::built_design::{BuiltDesign, OtherReadings};
+use crate::io::is_standard;
 use crate::io::mesh::MeshBody;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{Failure, is_standard};
+use brillianteer_base::Failure;
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{MaterialError, MaterialRef, Size};
 use brillianteer_measure::MeasureName;

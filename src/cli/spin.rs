@@ -10,9 +10,8 @@ use super::spin_panel::{CurveSettings, LEAST_PLOTTED, ONLY_TILTS, SpinCurves, Sp
 use super::spin_pictures::{LitPictures, ScopeSetup, SpinPictures};
 use crate::io::export::LEAST_CAPTIONED;
 use crate::io::plot::COLOURS_OF_CURVES;
-use crate::io::{
-    AnimationFormat, Failure, Frames, check_writable, is_standard, write_animation, write_rgba_png,
-};
+use crate::io::{AnimationFormat, Frames, check_writable, is_standard, write_animation, write_rgba_png};
+use brillianteer_base::Failure;
 use brillianteer_measure::{MEASURES_HEAD_DEG, MeasureName};
 use brillianteer_scene::Viewpoint;
 use clap::Args;

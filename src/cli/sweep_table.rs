@@ -2,7 +2,8 @@
 
 use super::console::print;
 use super::sweep_parquet::ParquetTable;
-use crate::io::{Failure, WholeFile, check_writable};
+use crate::io::{WholeFile, check_writable};
+use brillianteer_base::Failure;
 use brillianteer_measure::{Interval, MeasureName};
 use brillianteer_render::SweptStone;
 use serde_json::{Map, Value, json};

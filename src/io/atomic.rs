@@ -2,7 +2,7 @@
 
 use super::overwriting::{self, Existing};
 use super::standard::is_standard;
-use brillianteer_base::Stopped;
+use brillianteer_base::{Failure, Stopped};
 use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::fs::{File, OpenOptions};
@@ -298,6 +298,15 @@ fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder)
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        match error {
+            WriteError::Stopped(_) => Self::Stopped,
+            error @ WriteError::Io { .. } => Self::Output(error.to_string()),
+        }
+    }
 }
 
 #[cfg(test)]

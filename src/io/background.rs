@@ -2,9 +2,10 @@
 
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
+use super::rasterize;
 use super::text::unreadable;
-use super::{Failure, rasterize};
 use ::png::{BitDepth, ColorType};
+use brillianteer_base::Failure;
 use brillianteer_base::FileError;
 use brillianteer_base::Watch;
 use brillianteer_optics::{encoded_from_linear, linear_from_encoded};

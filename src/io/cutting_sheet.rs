@@ -1,6 +1,7 @@
 //! Writes cutters' sheets as SVG, PDF and PNG.
 
-use super::{DrawingError, Failure, WriteError, in_tiers, pdf, rasterize, write as write_whole, write_png};
+use super::{DrawingError, WriteError, in_tiers, pdf, rasterize, write as write_whole, write_png};
+use brillianteer_base::Failure;
 use brillianteer_cut::{Cut, TierZone, Tiers};
 use brillianteer_picture::{CuttingSheet, PaperSize, sheet_pages};
 use brillianteer_scene::{Specimen, Stone};

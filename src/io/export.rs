@@ -23,7 +23,8 @@ pub use viewing::Viewing;
 #[cfg(feature = "interchange")]
 pub(in crate::io) use viewing::note;
 
-use super::{Failure, WriteError, is_standard, write};
+use super::{WriteError, is_standard, write};
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_picture::{Picture, Scoped};
 use brillianteer_render::Renderer;

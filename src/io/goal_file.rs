@@ -2,7 +2,8 @@
 //! the limits.
 
 use super::toml_text::TomlText;
-use super::{Failure, WriteError, text, write as write_whole};
+use super::{WriteError, text, write as write_whole};
+use brillianteer_base::Failure;
 use brillianteer_base::{Fault, FileError};
 use brillianteer_search::Goal;
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! Loads the light of a scene: one that comes with the program, a light file, or a panorama.
 
-use super::{Failure, light_file, panorama};
+use super::{light_file, panorama};
+use brillianteer_base::Failure;
 use brillianteer_base::NameOrFileError;
 use brillianteer_base::Watch;
 use brillianteer_base::nearest;

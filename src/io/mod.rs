@@ -24,7 +24,6 @@ mod encoding;
 pub mod export;
 #[cfg(feature = "exr")]
 mod exr;
-mod failure;
 #[cfg(feature = "interchange")]
 mod foreign;
 #[cfg(feature = "interchange")]
@@ -73,7 +72,6 @@ pub use cutters::{NoTiers, as_tiers, in_tiers};
 pub use drawing_png::{DrawingError, note_of_letters, rasterize, rasterize_clear, rasterize_within};
 #[cfg(feature = "exr")]
 pub use exr::write_exr;
-pub use failure::Failure;
 pub use letters::SystemFont;
 #[cfg(feature = "interchange")]
 pub use mesh::{write_glb, write_obj, write_ply, write_stl};

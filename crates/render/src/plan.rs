@@ -3,6 +3,7 @@
 use super::card::{Backend, Card, NoCard};
 use super::check::JobError;
 use super::job::{Job, LightProduct, Product, Steps, USUAL_BOUNCES};
+use brillianteer_base::Failure;
 use brillianteer_math::{NotConvex, SolidRef};
 use brillianteer_scene::{Projection, View};
 use brillianteer_trace::ray::Camera;
@@ -96,6 +97,17 @@ pub enum Unfit {
         "refraction maps and liquid glass are traced by rays on the processor: choose these, or no tracer"
     )]
     ManyPaths,
+}
+
+impl Unfit {
+    /// Returns this as the failure of a request about a file; it names the file where the file is at fault.
+    pub fn failure(&self, file: &str) -> Failure {
+        match self {
+            Self::Eye => Failure::Input(format!("{file}: {self}")),
+            Self::NotConvex(_) => Failure::Usage(format!("{file}: {self}")),
+            _ => Failure::Usage(self.to_string()),
+        }
+    }
 }
 
 /// The planned tracer.

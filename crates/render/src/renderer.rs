@@ -4,7 +4,7 @@ use super::beam_cache::BeamCache;
 use super::card::{Backend, Card};
 use super::job::{Job, Product, Reading, Steps};
 use super::plan::{Demands, Plan, Unfit, plan};
-use brillianteer_base::{Stopped, Watch};
+use brillianteer_base::{Failure, Stopped, Watch};
 use brillianteer_measure::{LATTICE, LightMeasures, MeasureDerivatives, Measured};
 use brillianteer_picture::liquid_glass::{Cost, PaneError};
 use brillianteer_picture::spectral::Remainder;
@@ -352,6 +352,19 @@ impl Rendered {
         match self.output {
             Output::Measures(measures) => Ok(*measures),
             _ => Err(RenderError::OtherProduct),
+        }
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Stopped(stopped) => stopped.into(),
+            #[cfg(feature = "gpu")]
+            RenderError::Card(error) => Self::Output(error.to_string()),
+            RenderError::Unfit(_) | RenderError::Pane(_) | RenderError::OtherProduct => {
+                Self::Usage(error.to_string())
+            }
         }
     }
 }

@@ -4,7 +4,7 @@
 //! the search ends, so the whole search is one step of undo.
 
 use super::goal_form::{GoalForm, GoalFormFault};
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::{Cut, CutClass, Design};
 use brillianteer_search::{
     Appraisal, Goal, OtherMeasure, ProgressPoint, SearchOptions, SearchOutcome, SearchProgress, VariedNumber,

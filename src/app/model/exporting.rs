@@ -1,7 +1,7 @@
 //! The state of the export dialog: the selection, and the progress of the files.
 
 use super::export::ExportPlan;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use std::path::PathBuf;
 use std::time::Duration;
 

@@ -1,6 +1,6 @@
 //! The forms of two dialogs: one fits the design to another material, one to a piece of rough or a weight.
 
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::{
     Design, Finished, MaterialRef, RetargetError, RetargetRule, Retargeted, Rough, RoughError, Size, retarget,
 };

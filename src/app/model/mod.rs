@@ -54,7 +54,7 @@ pub use update::update;
 use crate::app::liquid::{LightMotion, Liquid};
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::Cut;
 use brillianteer_scene::{Companions, Copies, Pose, Specimen, View};
 use document::Document;

@@ -2,8 +2,9 @@
 
 use super::render_settings::RenderSettings;
 use crate::io::assembly::{Assembly, StonePlace};
+use crate::io::library;
 use crate::io::scene_file::{self, RingEntry, SceneFile};
-use crate::io::{Failure, library};
+use brillianteer_base::Failure;
 use brillianteer_base::FileError;
 use brillianteer_cut::{Cut, Design, MaterialRef};
 use brillianteer_scene::{

@@ -3,7 +3,8 @@
 use super::render_settings::RenderSettings;
 use super::view_history::ViewState;
 use super::work::{ReadMesh, Work};
-use crate::io::{Failure, cut_file};
+use crate::io::cut_file;
+use brillianteer_base::Failure;
 use brillianteer_cut::Design;
 use brillianteer_scene::{Companion, Companions, Copies, MetalInstance, Pose, SceneRing, Specimen};
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 use super::shot_light::ShotLight;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_measure::Figures;
 use brillianteer_picture::DrawnMarks;

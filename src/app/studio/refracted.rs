@@ -8,7 +8,7 @@ use super::order::{Shot, Slot, TakenPicture};
 use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
 use crate::app::lookup::as_screens;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_picture::{Carried, Develop, RefractionMap};
 use brillianteer_render::{Job, Rendered, Renderer};

@@ -1,6 +1,6 @@
 //! The light of shots: as it is at hand, and whole.
 
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_trace::environment::EnvironmentMap;
 use brillianteer_trace::environment::Lighting;

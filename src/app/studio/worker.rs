@@ -7,7 +7,7 @@ use super::pace::Pace;
 use super::sweeping::SweptSoFar;
 use super::take::ShotTracer;
 use crate::app::shows::Shows;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_measure::{Bounds, Figures, LATTICE};
 use brillianteer_render::{Card, Job, RenderError, Rendered};

@@ -1,7 +1,7 @@
 //! Measures the light of stones that are compared.
 
 use crate::app::model::fitting::{LightRequest, StoneLight};
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_render::{MeasureError, MeasureOptions, measure};
 use brillianteer_scene::Specimen;
 

@@ -2,7 +2,7 @@
 
 use crate::app::model::cut_search::{SearchEvent, SearchReport, SearchRequest};
 use crate::app::urgency;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_search::{DesignSearch, OtherMeasure, SearchError, SearchProgress, estimated_classes};
 use rayon::ThreadPoolBuilder;
 use std::ops::ControlFlow;

@@ -1,7 +1,7 @@
 //! The parts of a graphics card's time, as far as the times and counts of its dispatches show them.
 
 use super::CardLine;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_render::RenderError;
 use brillianteer_trace::gpu::{CardPeak, DispatchTotals, Gpu};
 use serde_json::{Value, json};

@@ -2,7 +2,7 @@
 
 use super::PictureSetup;
 use crate::cli::console::say;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_picture::Smoothing;
 use brillianteer_render::{Rendered, USUAL_BOUNCES, mixture_note};
 

@@ -1,7 +1,7 @@
 //! A scene some time after its bodies have begun to move.
 
 use super::Assembly;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::Design;
 use brillianteer_scene::{Copies, Instance, Movement, Pose};
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! The stones and the metal of a scene's ring.
 
 use super::{CutKey, Member, NamedMaterial, diameter_mm, named_material};
-use crate::io::Failure;
 use crate::io::mesh_options::MeshPart;
 use crate::io::scene_file::RingEntry;
+use brillianteer_base::Failure;
 use brillianteer_cut::{MaterialRef, Size};
 use brillianteer_math::{NotConvex, ShadedMesh};
 use brillianteer_scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone, Specimen};

@@ -1,6 +1,6 @@
 //! The events and the progress that long work reports.
 
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! The figures of a stone's hearts and arrows, and their JSON.
 
 use super::viewing::Viewing;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_measure::{
     ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows,

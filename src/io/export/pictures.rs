@@ -4,7 +4,8 @@ use super::event::{Event, Reporter, WorkShares};
 use super::sheet::{ScopeSheet, SheetFile, UNRESOLVED, how, in_percent, remark};
 use super::viewing::{Viewing, note};
 use super::{Export, OutputFormat, Outputs, write_text};
-use crate::io::{Failure, note_of_letters, rasterize, write_exr, write_png};
+use crate::io::{note_of_letters, rasterize, write_exr, write_png};
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_picture::{
     DiagramStyle, DrawnMarks, Layer, Palette, Picture, Scoped, marked_diagram, profile, vector,

@@ -2,7 +2,8 @@
 
 use super::viewing::Viewing;
 use super::{OutputFormat, Outputs};
-use crate::io::{Failure, PngFile, rasterize};
+use crate::io::{PngFile, rasterize};
+use brillianteer_base::Failure;
 use brillianteer_math::rounded;
 use brillianteer_picture::{Caption, Palette, Rows};
 use brillianteer_render::{Backend, Job, Product, Reading, ScopeProduct};

@@ -1,7 +1,7 @@
 //! A stone, the viewpoint from which it is seen, and how its light is traced.
 
 use super::event::{Event, Reporter};
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_picture::Scoped;
 use brillianteer_render::{FiguresProduct, Job, Partial, Product, Quality, Renderer, Unfit, Wanted};
 use brillianteer_scene::{Film, Glare, Medium, Scene, Side, Specimen, Stone, View, Viewpoint};
@@ -103,7 +103,7 @@ impl Viewing<'_> {
     /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact
     /// beams do not fit.
     pub fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
-        self.plans_beams(renderer).map_err(|why| Failure::of_unfit(&why, self.file))
+        self.plans_beams(renderer).map_err(|why| why.failure(self.file))
     }
 
     /// Returns the convex stone, for outputs that only convex stones have.

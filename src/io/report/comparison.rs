@@ -4,7 +4,7 @@ use super::figures::{bounded, designed, is_listed, measured};
 use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, provenance};
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_math::fixed;
 use brillianteer_measure::{Interval, MeasureName, measure_words};
 use brillianteer_picture::{FigureRow, Report, ReportCell, ReportFigure, ReportPart, ReportTable, TextFlow};

@@ -19,7 +19,8 @@ pub use fingerprint::fingerprint;
 pub use html::report_html;
 
 use super::export::{Reporter, Viewing, WorkShares};
-use super::{Failure, WriteError, pdf, write as write_whole};
+use super::{WriteError, pdf, write as write_whole};
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_picture::{PaperSize, Report, report_pages};
 use brillianteer_render::Renderer;

@@ -1,12 +1,12 @@
 //! The pictures of a report: a stone in every scope and under light, its profile and its facet diagram.
 
-use crate::io::Failure;
 use crate::io::export::{Reporter, ScopeStill, Viewing, note};
 use crate::io::lighting;
 use crate::io::png_bytes::png;
 use ::png::{BitDepth, ColorType};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_measure::facet_deviations;
 use brillianteer_optics::linear_from_encoded;

@@ -3,7 +3,7 @@
 use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, figures, provenance};
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::Cut;
 use brillianteer_measure::MeasureName;
 use brillianteer_picture::{FigureRow, Report, ReportFigure, ReportPart, ReportTable};

@@ -3,11 +3,11 @@
 use super::fingerprint::fingerprint;
 use super::pictures::{NamedDrawing, drawings, pictures};
 use super::tilts::TiltCurves;
-use crate::io::Failure;
 use crate::io::export::{
     Event, FigureReport, HeartsReport, MeasureReport, Reporter, Viewing, WorkShares, hearts, light_measures,
     measure,
 };
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_cut::{Cut, Outline};
 use brillianteer_math::{Basis, Symmetry};

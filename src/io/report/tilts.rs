@@ -1,8 +1,8 @@
 //! The measures of a stone against tilt, with the bounds between which they certainly lie.
 
-use crate::io::Failure;
 use crate::io::export::Viewing;
 use crate::io::plot::{PlotAxis, PlotCurve, PlotError, curves};
+use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_measure::{LightMeasures, MeasureName, MeasureSettings};
 use brillianteer_optics::line;

@@ -6,7 +6,7 @@ use crate::app::model::action::{DialogAction, Edit};
 use crate::app::model::dialog::Dialog;
 use crate::app::model::fitting::{RetargetForm, StoneLight, YieldForm};
 use crate::app::model::task::Task;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use std::sync::Arc;
 
 /// Opens the dialog that fits the design to another material.

@@ -20,7 +20,7 @@ use super::figures::ShownFigures;
 use super::session::Session;
 use super::task::Task;
 use crate::app::studio::{ShotLight, Which};
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use std::sync::Arc;
 
 /// Changes a model by an action; returns the tasks that follow from it.

@@ -8,7 +8,7 @@ use crate::app::model::document::Document;
 use crate::app::model::session::RingMaking;
 use crate::app::model::task::Task;
 use crate::app::model::work::Work;
-use crate::io::Failure;
+use brillianteer_base::Failure;
 use brillianteer_cut::Design;
 use brillianteer_scene::{Companion, Pose, Ring, RingMetal, RingPlan, SeatKind, Specimen};
 use std::sync::Arc;

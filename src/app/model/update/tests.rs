@@ -20,10 +20,10 @@ use crate::app::model::{Action, Model, Task};
 use crate::app::studio::{Order, Paper, ShotLight, Which};
 use crate::app::tasks::autosave::Autosave;
 use crate::app::tasks::open;
-use crate::io::Failure;
 use crate::io::cut_file;
 use crate::io::lighting;
 use crate::io::mesh_options::MeshOptions;
+use brillianteer_base::Failure;
 use std::path::{Path, PathBuf};
 
 /// An editor without a window.
