@@ -37,7 +37,11 @@ mod solids;
 pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod io;
+/// Files, in and out.
+pub mod io {
+    pub use brillianteer_files::*;
+    pub use brillianteer_paper::*;
+}
 
 /// What every room shares: work that can be watched and stopped, and faults in files.
 pub use brillianteer_base as base;

@@ -18,8 +18,8 @@ use super::views::gallery::{Shown, hang};
 use super::views::look_ups::look_ups;
 use super::views::{ViewTools, bench_mode, clock, light_path_window, stage};
 use super::{dialogs, drops, menus, theme};
-use crate::io::library;
 use brillianteer_base::Failure;
+use brillianteer_files::library;
 use brillianteer_trace::gpu::Gpu;
 use eframe::{CreationContext, Storage};
 use egui::{ColorImage, Context, PanelState, TextureHandle, Ui, ViewportCommand};
@@ -359,7 +359,7 @@ impl Editor {
 }
 
 /// Returns the action that opens a file, or the cut or scene of that name that comes with the program.
-fn first(path: PathBuf, mesh: crate::io::mesh_options::MeshOptions) -> FileAction {
+fn first(path: PathBuf, mesh: brillianteer_files::mesh_options::MeshOptions) -> FileAction {
     use super::model::dialog::Then;
     let name = path.to_string_lossy().into_owned();
     let is_file = Path::is_file(&path);

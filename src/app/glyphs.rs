@@ -1,6 +1,6 @@
 //! Signs and letters that the fonts of the window lack.
 
-use crate::io::SystemFont;
+use brillianteer_paper::SystemFont;
 use egui::FontData;
 use egui::epaint::text::{FallbackRequest, FontInsert, FontPriority, FontProvider, InsertFontFamily};
 use egui::{

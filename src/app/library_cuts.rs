@@ -1,7 +1,7 @@
 //! The cuts that come with the program as the chooser offers them, each with a line drawing made of its stone.
 
-use crate::io::{cut_file, library};
 use brillianteer_cut::{BY_TIERS, GROUPS};
+use brillianteer_files::{cut_file, library};
 use brillianteer_math::{Basis, Edge, SolidRef};
 use brillianteer_scene::Specimen;
 use glam::{DVec2, DVec3};

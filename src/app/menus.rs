@@ -9,7 +9,7 @@ use super::model::session::{HeldKeys, Session};
 use super::panels::row_focus;
 use super::scrolled::scrolled;
 use super::setup::PaintedBy;
-use crate::io::library::SCENES;
+use brillianteer_files::library::SCENES;
 use egui::{
     Align, Button, Context, Event, InnerResponse, Key, Modifiers, Panel, Popup, Response, RichText,
     ThemePreference, Ui, WidgetText,

@@ -4,7 +4,7 @@ use super::model::workspace::Workspace;
 use super::state_file::StateFile;
 use super::tasks::Opener;
 use super::tasks::files::{Chooser, by_dialog};
-use crate::io::mesh_options::MeshOptions;
+use brillianteer_files::mesh_options::MeshOptions;
 use std::path::PathBuf;
 use std::sync::Arc;
 

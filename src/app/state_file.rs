@@ -2,7 +2,7 @@
 //! and not for a length of time.
 
 use crate::app::model::workspace::PaneLayout;
-use crate::io::{WriteError, write};
+use brillianteer_files::{WriteError, write};
 use serde::Serialize;
 use std::path::PathBuf;
 

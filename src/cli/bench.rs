@@ -6,9 +6,9 @@ mod card_use;
 
 use super::console::{json, print, say};
 use super::specimen::LoadedSpecimen;
-use crate::io::mesh_options::MeshOptions;
 use brillianteer_base::Failure;
 use brillianteer_base::unwatched;
+use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_math::Polytope;
 use brillianteer_measure::{Bounds, STANDARD_ERROR};
 use brillianteer_optics::line;

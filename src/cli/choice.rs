@@ -1,9 +1,9 @@
 //! Values of the library that people choose by name on the command line, with what the help says of each.
 
-use crate::io::cutting_sheet::SheetFormat;
-use crate::io::design_file::DesignFormat;
-use crate::io::export::OutputFormat;
-use crate::io::mesh_options::MeshForm;
+use brillianteer_files::design_file::DesignFormat;
+use brillianteer_files::mesh_options::MeshForm;
+use brillianteer_paper::cutting_sheet::SheetFormat;
+use brillianteer_paper::export::OutputFormat;
 use brillianteer_picture::PaperSize;
 use brillianteer_render::Wanted;
 use brillianteer_scene::Movement;

@@ -1,8 +1,8 @@
 //! Keeps what a file holds beside its design from being lost where a command writes over the file that it reads.
 
-use crate::io::design_file::DesignFormat;
-use crate::io::has_comments;
 use brillianteer_base::Failure;
+use brillianteer_files::design_file::DesignFormat;
+use brillianteer_files::has_comments;
 use std::path::Path;
 
 /// Refuses to write over a mesh that is read, whose triangles the new file would lack.

@@ -1,8 +1,8 @@
 //! The program's output: results on standard output; notes, warnings and errors on standard error.
 
-use crate::io::export::Event;
-use crate::io::is_standard;
 use brillianteer_base::Failure;
+use brillianteer_files::is_standard;
+use brillianteer_paper::export::Event;
 use std::borrow::Cow;
 use std::path::Path;
 

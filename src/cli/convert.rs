@@ -6,11 +6,11 @@ use super::console::say;
 use super::meets::KnownMeets;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
-use crate::io::bodies_scene::BodiesScene;
-use crate::io::design_file::{self, DesignFormat};
-use crate::io::{WriteError, is_standard, scene_file, write};
 use brillianteer_base::Failure;
 use brillianteer_cut::{Cut, Design};
+use brillianteer_files::bodies_scene::BodiesScene;
+use brillianteer_files::design_file::{self, DesignFormat};
+use brillianteer_files::{WriteError, is_standard, scene_file, write};
 use clap::Args;
 use std::path::{Path, PathBuf};
 

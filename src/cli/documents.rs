@@ -1,7 +1,7 @@
 //! Tests that the documents show commands, options, names and files that exist.
 
 use super::{Arguments, parsed, spelt_out};
-use crate::io::library;
+use brillianteer_files::library;
 use clap::{Command, CommandFactory};
 use std::collections::BTreeSet;
 use std::ffi::OsString;

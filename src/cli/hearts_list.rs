@@ -1,8 +1,8 @@
 //! Lists of a stone's hearts and arrows, and of its spread.
 
-use crate::io::export::HeartsReport;
 use brillianteer_math::{fixed, signed};
 use brillianteer_measure::{EightfoldPattern, FaceUpSize, OctantFigure, OctantUnit};
+use brillianteer_paper::export::HeartsReport;
 use std::fmt::Write;
 
 /// Departures below this are printed as 0, and then no octant is named as the worst.

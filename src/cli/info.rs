@@ -6,15 +6,15 @@ use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::specimen::{LoadedSpecimen, weight};
 use super::specimen_options::SpecimenOptions;
-use crate::io::STANDARD;
-use crate::io::assembly::{Assembly, MadeRing};
-use crate::io::built_design::is_scene;
-use crate::io::mesh::MeshBody;
 use brillianteer_base::Failure;
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{
     AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
 };
+use brillianteer_files::STANDARD;
+use brillianteer_files::assembly::{Assembly, MadeRing};
+use brillianteer_files::built_design::is_scene;
+use brillianteer_files::mesh::MeshBody;
 use brillianteer_math::{Facet, Polytope, fixed, rounded};
 use brillianteer_scene::{ALLOYS, Alloy, Body};
 use clap::Args;

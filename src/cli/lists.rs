@@ -1,11 +1,12 @@
 //! `materials`, `cuts`, `scenes`, `scopes`, `lights`: list the items that the program knows by name.
 
 use super::console::{json, print};
-use crate::io::assembly::Assembly;
-use crate::io::library::{CUTS, SCENES, cut, scene};
-use crate::io::{cut_file, light_file, lighting, scene_file, scope_file};
 use brillianteer_base::Failure;
+use brillianteer_files::assembly::Assembly;
+use brillianteer_files::library::{CUTS, SCENES, cut, scene};
+use brillianteer_files::{cut_file, light_file, scene_file, scope_file};
 use brillianteer_optics::{line, materials};
+use brillianteer_paper::lighting;
 use brillianteer_picture::{Picture, named, names};
 use brillianteer_scene::{LIGHTS, Scope, light};
 use clap::Args;

@@ -1,12 +1,13 @@
 //! The files of a refraction map, which `refraction-map` traces and `refraction-import` reads.
 
 use super::console::say;
-use crate::io::background;
-use crate::io::refraction::{
+use brillianteer_base::Failure;
+use brillianteer_files::is_standard;
+use brillianteer_paper::background;
+use brillianteer_paper::refraction::{
     Coding, MOST_MEGABYTES, Page, diffuse_path, paths, takes, write_diffuse, write_page, write_places,
 };
-use crate::io::{is_standard, write_rgba_png};
-use brillianteer_base::Failure;
+use brillianteer_paper::write_rgba_png;
 use brillianteer_picture::{Develop, RefractionMap, Tone, develop, refract};
 use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Panorama;

@@ -8,11 +8,13 @@ use super::options::{LightOptions, ViewOptions, pupil_diameter, rock_angle, scop
 use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
-use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
 use brillianteer_base::Failure;
 use brillianteer_math::{fixed, signed};
 use brillianteer_measure::{
     ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
+};
+use brillianteer_paper::export::{
+    FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure,
 };
 use brillianteer_picture::Scoped;
 use brillianteer_render::{Card, Renderer};

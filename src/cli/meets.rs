@@ -1,8 +1,8 @@
 //! The meets of a design and their origins, for `info --meets` and `convert --meets`.
 
 use super::console::say;
-use crate::io::as_tiers;
 use brillianteer_cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
+use brillianteer_files::as_tiers;
 use brillianteer_math::fixed;
 use brillianteer_scene::Specimen;
 use serde_json::{Value, json};

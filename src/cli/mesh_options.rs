@@ -1,9 +1,9 @@
 //! The options of every command that reads meshes.
 
 use super::choice::{MESH_FORMS, name_of, one_of};
-use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use brillianteer_cut::Size;
 use brillianteer_cut::from_mesh::{Evening, Up};
+use brillianteer_files::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use clap::Args;
 use glam::DVec3;
 

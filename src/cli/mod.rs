@@ -53,10 +53,10 @@ mod sweep_plot;
 mod sweep_table;
 mod without_window;
 
-use crate::io::built_design::hint;
-use crate::io::mesh_options::MeshOptions;
-use crate::io::{is_standard, report_made_folders};
 use brillianteer_base::Failure;
+use brillianteer_files::built_design::hint;
+use brillianteer_files::mesh_options::MeshOptions;
+use brillianteer_files::{is_standard, report_made_folders};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::say;

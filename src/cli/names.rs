@@ -1,6 +1,6 @@
 //! Resolves a name on the command line: a file, or a cut or a scene that comes with the program.
 
-use crate::io::library;
+use brillianteer_files::library;
 use std::path::Path;
 
 /// Returns whether a cut or a scene of this name comes with the program.

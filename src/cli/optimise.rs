@@ -8,13 +8,14 @@ use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
 use super::specimen::{lacks_fire, no_fire, note_no_fire};
 use super::specimen_options::SpecimenOptions;
-use crate::io::design_file::{self, DesignFormat};
-use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
-use crate::io::{check_writable, goal_file};
 use brillianteer_base::Failure;
 use brillianteer_base::unwatched;
 use brillianteer_cut::Design;
+use brillianteer_files::check_writable;
+use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_measure::{MeasureName, NoMeasure};
+use brillianteer_paper::goal_file;
+use brillianteer_paper::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
 use brillianteer_scene::Specimen;
 use brillianteer_search::{
     DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
@@ -297,7 +298,7 @@ fn renamed(outcome: &SearchOutcome, given: &Design) -> Design {
 }
 
 /// Draws the total of the best against the number of designs that were appraised.
-fn progress_svg(title: &str, outcome: &SearchOutcome) -> Result<String, crate::io::plot::PlotError> {
+fn progress_svg(title: &str, outcome: &SearchOutcome) -> Result<String, brillianteer_paper::plot::PlotError> {
     let mut places = vec![];
     let mut bands = vec![];
     for point in &outcome.curve {

@@ -2,12 +2,12 @@
 
 use super::choice::{TRACERS, one_of};
 use super::specimen::{LoadedSpecimen, note_colour};
-use crate::io::export::Viewing;
-use crate::io::scope_file;
 use brillianteer_base::Failure;
 use brillianteer_base::nearest;
+use brillianteer_files::scope_file;
 use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};
+use brillianteer_paper::export::Viewing;
 use brillianteer_picture::{Picture, Scoped, named, names};
 use brillianteer_render::{Renderer, Unfit, Wanted};
 use brillianteer_scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};

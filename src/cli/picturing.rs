@@ -4,13 +4,13 @@ use super::console::{report, say};
 use super::options::unfit;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::specimen::note_colour;
-use crate::io::assembly::Assembly;
-use crate::io::background;
-use crate::io::export::Event;
-use crate::io::lighting;
-use crate::io::{Finish, StoredLight};
 use brillianteer_base::Failure;
 use brillianteer_base::Watch;
+use brillianteer_files::assembly::Assembly;
+use brillianteer_paper::background;
+use brillianteer_paper::export::Event;
+use brillianteer_paper::lighting;
+use brillianteer_paper::{Finish, StoredLight};
 use brillianteer_picture::{Bloom, Develop, Overlay, Smoothing, Tone};
 use brillianteer_render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,

@@ -1,9 +1,10 @@
 //! The file of a plot.
 
 use super::console::written;
-use crate::io::plot::PlotError;
-use crate::io::{WriteError, pdf, rasterize, write, write_png};
 use brillianteer_base::Failure;
+use brillianteer_files::{WriteError, write};
+use brillianteer_paper::plot::PlotError;
+use brillianteer_paper::{pdf, rasterize, write_png};
 use std::path::{Path, PathBuf};
 
 /// The width of a plot as PNG, in pixels.

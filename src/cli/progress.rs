@@ -2,9 +2,9 @@
 
 use super::console::{report, say};
 use super::progress_lines::ProgressLines;
-use crate::io::abandon_writes;
-use crate::io::export::Event;
 use brillianteer_base::Failure;
+use brillianteer_files::abandon_writes;
+use brillianteer_paper::export::Event;
 use indicatif::{ProgressBar, ProgressStyle};
 #[cfg(unix)]
 use signal_hook::{

@@ -1,13 +1,13 @@
 //! Reads and builds the stone that a command works on.
 
 use super::console::say;
-use crate::io::built_design::{BuiltDesign, OtherReadings};
-use crate::io::is_standard;
-use crate::io::mesh::MeshBody;
-use crate::io::mesh_options::MeshOptions;
 use brillianteer_base::Failure;
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{MaterialError, MaterialRef, Size};
+use brillianteer_files::built_design::{BuiltDesign, OtherReadings};
+use brillianteer_files::is_standard;
+use brillianteer_files::mesh::MeshBody;
+use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_measure::MeasureName;
 use brillianteer_optics::{Dispersion, Material};
 use brillianteer_scene::Stone;

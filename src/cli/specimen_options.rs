@@ -3,10 +3,10 @@
 use super::console::say;
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, asked_material, note_readings};
-use crate::io::assembly::Assembly;
-use crate::io::bodies_scene::{BodiesScene, scene_of_bodies};
 use brillianteer_base::Failure;
 use brillianteer_cut::{MaterialRef, Size};
+use brillianteer_files::assembly::Assembly;
+use brillianteer_files::bodies_scene::{BodiesScene, scene_of_bodies};
 use clap::Args;
 use std::path::Path;
 

@@ -5,14 +5,14 @@ use super::measure_taking::{UNRESOLVED, settings_of};
 use super::spin_motion::{SpinMotion, SpinPose, StoneMotion};
 use super::spin_pictures::SpinPictures;
 use super::sweep_plot::UNIT;
-use crate::io::export::caption_pixels;
-use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
-use crate::io::{rasterize, with_cover};
 use brillianteer_base::Failure;
 use brillianteer_base::Watch;
 use brillianteer_cut::Design;
 use brillianteer_measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use brillianteer_optics::line;
+use brillianteer_paper::export::caption_pixels;
+use brillianteer_paper::plot::{PlotAxis, PlotCurve, marked_curves};
+use brillianteer_paper::{rasterize, with_cover};
 use brillianteer_render::{Sweep, SweepAxis, SweepKey, SweepValue};
 use brillianteer_scene::Lean;
 

@@ -1,8 +1,8 @@
 //! The table of a sweep as an Apache Parquet file, which appears once all rows are in it.
 
 use super::sweep_table::SweepRow;
-use crate::io::WholeFile;
 use brillianteer_base::Failure;
+use brillianteer_files::WholeFile;
 use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
 use parquet::errors::ParquetError;

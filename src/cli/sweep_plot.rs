@@ -1,12 +1,12 @@
 //! The plot that `sweep` draws: curves over one axis, a map over two, or a family of curves: one for each azimuth or material.
 
 use super::plot_file::PlotFile;
-use crate::io::plot::{
-    COLOURS_OF_CURVES, PLOT_SIZE, PlotAxis, PlotCurve, PlotError, PlotPanel, curves, heat_map, panels,
-};
 use brillianteer_base::Failure;
 use brillianteer_cut::Cut;
 use brillianteer_measure::{Interval, MeasureName};
+use brillianteer_paper::plot::{
+    COLOURS_OF_CURVES, PLOT_SIZE, PlotAxis, PlotCurve, PlotError, PlotPanel, curves, heat_map, panels,
+};
 use brillianteer_render::{SweepAxis, SweepKey, SweepValue, SweptStone};
 use std::path::Path;
 

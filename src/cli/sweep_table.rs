@@ -2,8 +2,8 @@
 
 use super::console::print;
 use super::sweep_parquet::ParquetTable;
-use crate::io::{WholeFile, check_writable};
 use brillianteer_base::Failure;
+use brillianteer_files::{WholeFile, check_writable};
 use brillianteer_measure::{Interval, MeasureName};
 use brillianteer_render::SweptStone;
 use serde_json::{Map, Value, json};

@@ -1,9 +1,9 @@
 //! Writes the main pictures and figures of a stone to files where the editor cannot be opened.
 
 use super::console::say;
-use crate::io::built_design::is_scene;
-use crate::io::library::FIRST_CUT;
 use brillianteer_base::Failure;
+use brillianteer_files::built_design::is_scene;
+use brillianteer_files::library::FIRST_CUT;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

@@ -2,8 +2,8 @@
 #![cfg(feature = "exr")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-use brillianteer::optics::linear_from_encoded;
-use brillianteer::picture::{Linear, MapBand, RefractionMap, SourcePlace};
+use brillianteer_optics::linear_from_encoded;
+use brillianteer_picture::{Linear, MapBand, RefractionMap, SourcePlace};
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{ReadChannels, ReadLayers};
 use glam::{DMat3, DVec2};

@@ -42,6 +42,7 @@ mod scans;
 mod searching;
 mod sharing;
 mod sheet;
+mod slopes_of_tiers;
 mod stones;
 mod tracers;
 mod triangles;

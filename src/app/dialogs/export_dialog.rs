@@ -8,9 +8,9 @@ use crate::app::model::export::Selection;
 use crate::app::model::exporting::{ExportForm, ExportRun};
 use crate::app::shows::Shows;
 use crate::app::theme;
-use crate::io::export::OutputFormat;
-use crate::io::refraction::{MOST_MAP_BANDS, MOST_PLACES};
 use brillianteer_base::Failure;
+use brillianteer_paper::export::OutputFormat;
+use brillianteer_paper::refraction::{MOST_MAP_BANDS, MOST_PLACES};
 use egui::{
     Color32, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
     TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,

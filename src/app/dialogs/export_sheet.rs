@@ -2,7 +2,7 @@
 
 use crate::app::model::export_sheet::SheetChoice;
 use crate::app::panels::rows::spoken;
-use crate::io::cutting_sheet::SheetFormat;
+use brillianteer_paper::cutting_sheet::SheetFormat;
 use brillianteer_picture::PaperSize;
 use egui::{ComboBox, Ui};
 

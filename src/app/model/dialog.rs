@@ -4,7 +4,7 @@ use super::choosing::Purpose;
 use super::exporting::ExportForm;
 use super::fitting::{RetargetForm, YieldForm};
 use super::recovery::RecoveredWork;
-use crate::io::mesh_options::MeshOptions;
+use brillianteer_files::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
 
 /// An action that waits for the answer to a question.

@@ -6,11 +6,11 @@ use super::framing_fit::FramingFit;
 use super::scene_fit::SceneRoom;
 use crate::app::shows::Shows;
 use crate::app::studio::Shot;
-use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
-use crate::io::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
 use brillianteer_base::Failure;
 use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_optics::line;
+use brillianteer_paper::export::{Export, OutputFormat, Outputs, Viewing};
+use brillianteer_paper::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
 use brillianteer_picture::named;
 use brillianteer_render::{Renderer, Wanted};
 use brillianteer_scene::{

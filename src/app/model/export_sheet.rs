@@ -1,8 +1,8 @@
 //! The cutter's sheet in an export: its choices and its files.
 
 use super::export::ExportPlan;
-use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, files, write};
 use brillianteer_base::Failure;
+use brillianteer_paper::cutting_sheet::{SheetFormat, cutting_sheet, files, write};
 use brillianteer_picture::PaperSize;
 use std::path::PathBuf;
 

@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn the_sides_of_tiers_are_ticked_at_first_and_named_where_others_are_not() {
         let document = Document::first().unwrap();
-        let cut = Cut::Tiers(crate::io::as_tiers(document.specimen()).unwrap());
+        let cut = Cut::Tiers(brillianteer_files::as_tiers(document.specimen()).unwrap());
         let mut form = GoalForm::default();
         form.follow(&cut);
         let scale = number(&mut form, "Scale of the crown");

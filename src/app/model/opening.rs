@@ -3,7 +3,7 @@
 use super::document::Document;
 use super::preset::Preset;
 use super::work::Work;
-use crate::io::mesh_options::MeshOptions;
+use brillianteer_files::mesh_options::MeshOptions;
 use std::path::PathBuf;
 
 /// The purpose for which a file is opened.

@@ -76,7 +76,7 @@ mod tests {
     use crate::app::model::motion::Motion;
     use crate::app::model::update;
     use crate::app::model::workspace::Workspace;
-    use crate::io::export::OutputFormat;
+    use brillianteer_paper::export::OutputFormat;
     use brillianteer_scene::{Copies, Side};
 
     #[test]

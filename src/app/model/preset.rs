@@ -1,12 +1,12 @@
 //! Scenes that the editor can work on: copies of one design with their companions, light and backplate.
 
 use super::render_settings::RenderSettings;
-use crate::io::assembly::{Assembly, StonePlace};
-use crate::io::library;
-use crate::io::scene_file::{self, RingEntry, SceneFile};
 use brillianteer_base::Failure;
 use brillianteer_base::FileError;
 use brillianteer_cut::{Cut, Design, MaterialRef};
+use brillianteer_files::assembly::{Assembly, StonePlace};
+use brillianteer_files::library;
+use brillianteer_files::scene_file::{self, RingEntry, SceneFile};
 use brillianteer_scene::{
     Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen,
 };

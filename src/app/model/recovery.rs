@@ -3,9 +3,9 @@
 use super::render_settings::RenderSettings;
 use super::view_history::ViewState;
 use super::work::{ReadMesh, Work};
-use crate::io::cut_file;
 use brillianteer_base::Failure;
 use brillianteer_cut::Design;
+use brillianteer_files::cut_file;
 use brillianteer_scene::{Companion, Companions, Copies, MetalInstance, Pose, SceneRing, Specimen};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

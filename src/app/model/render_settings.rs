@@ -2,7 +2,7 @@
 
 use crate::app::liquid::Liquid;
 use crate::app::studio::Smoothing;
-use crate::io::scene_file::SceneFile;
+use brillianteer_files::scene_file::SceneFile;
 use brillianteer_picture::Bloom;
 use brillianteer_render::USUAL_BOUNCES;
 use brillianteer_scene::BackgroundRef;

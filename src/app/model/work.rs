@@ -1,8 +1,8 @@
 //! The user's work: everything that undo restores.
 
 use super::render_settings::RenderSettings;
-use crate::io::mesh_options::MeshOptions;
 use brillianteer_cut::Design;
+use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_scene::{Companions, Copies};
 use std::path::PathBuf;
 use std::sync::Arc;

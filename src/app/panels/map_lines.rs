@@ -1,8 +1,8 @@
 //! The lines of equal value on a map of a measure. They are computed once for the answered points, and not in each
 //! frame.
 
-use crate::io::plot::{PlotAxis, levels, lines};
 use brillianteer_measure::MeasureName;
+use brillianteer_paper::plot::{PlotAxis, levels, lines};
 use egui::{Context, Id};
 use std::ops::Range;
 use std::sync::Arc;

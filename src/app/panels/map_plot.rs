@@ -7,9 +7,9 @@ use crate::app::model::action::{Actions, Edit};
 use crate::app::model::growing_sweep::FoundSweep;
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STRIDES, point};
 use crate::app::theme;
-use crate::io::plot::{levels, map_colour};
 use brillianteer_cut::Design;
 use brillianteer_measure::measure_words;
+use brillianteer_paper::plot::{levels, map_colour};
 use brillianteer_render::{SweepError, SweptStone};
 use egui::epaint::Mesh;
 use egui::{

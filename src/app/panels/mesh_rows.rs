@@ -4,9 +4,9 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, FileAction};
 use crate::app::panels::rows::{ChoiceRow, named};
-use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use brillianteer_cut::Cut;
 use brillianteer_cut::from_mesh::{Evening, Up};
+use brillianteer_files::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use egui::Ui;
 use glam::DVec3;
 

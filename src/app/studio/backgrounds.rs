@@ -2,9 +2,9 @@
 //! a rough picture in the meantime: before a coarse background, or without one.
 
 use crate::app::urgency;
-use crate::io::background;
 use brillianteer_base::Failure;
 use brillianteer_base::{Watch, unwatched};
+use brillianteer_paper::background;
 use brillianteer_picture::PATTERN_SIDE;
 use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::Mipmap;

@@ -1,8 +1,8 @@
 //! Develops the light that was traced for a shot, and draws its overlay over it.
 
 use super::order::{Shot, Smoothing, TakenPicture};
-use crate::io::refraction::code_of;
 use brillianteer_base::{Stopped, Watch};
+use brillianteer_paper::refraction::code_of;
 use brillianteer_picture::{Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
 use brillianteer_scene::Background;
 use brillianteer_scene::BackgroundRef;

@@ -136,7 +136,7 @@ mod tests {
     use crate::app::model::motion::{Motion, WaveCache};
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
-    use crate::io::lighting;
+    use brillianteer_paper::lighting;
     use brillianteer_scene::{Copies, Glare, Projection};
     use brillianteer_trace::environment::backplate_point;
 

@@ -2,10 +2,10 @@
 
 use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
 use crate::app::model::work::ReadMesh;
-use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
-use crate::io::{WriteError, cut_file, design_file, write};
 use brillianteer_cut::from_mesh::{Evening, Up};
 use brillianteer_cut::{Cut, Design};
+use brillianteer_files::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
+use brillianteer_files::{WriteError, cut_file, design_file, write};
 use brillianteer_math::Plane;
 use brillianteer_scene::{Copies, MOST_STONES};
 use glam::DVec3;
@@ -231,7 +231,7 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::model::render_settings::RenderSettings;
     use crate::app::model::work::Work;
-    use crate::io::design_file::DesignFormat;
+    use brillianteer_files::design_file::DesignFormat;
     use std::sync::Arc;
 
     /// Returns work without a scene around it.

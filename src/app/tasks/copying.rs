@@ -3,8 +3,8 @@
 use crate::app::model::task::{CopyOriginal, CopyRequest};
 use crate::app::shows::Shows;
 use crate::app::studio::{FINE, ShotTracer, Which};
-use crate::io::rasterize;
 use brillianteer_base::Failure;
+use brillianteer_paper::rasterize;
 use brillianteer_picture::profile;
 use brillianteer_scene::Specimen;
 use egui::ColorImage;

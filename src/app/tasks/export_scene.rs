@@ -4,10 +4,10 @@
 use crate::app::model::export::{ExportPlan, kinds};
 use crate::app::studio::Shot;
 use crate::app::studio::hung;
-use crate::io::mesh::write_shaded;
-use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, RingEntry, SceneFile};
-use crate::io::{WriteError, cut_file, write};
 use brillianteer_base::Failure;
+use brillianteer_files::mesh::write_shaded;
+use brillianteer_files::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, RingEntry, SceneFile};
+use brillianteer_files::{WriteError, cut_file, write};
 use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen};
 use glam::DVec3;

@@ -1,7 +1,7 @@
 //! Asks for files by the system's file dialogs.
 
 use crate::app::model::choosing::{Choice, Purpose, Question};
-use crate::io::design_file::DesignFormat;
+use brillianteer_files::design_file::DesignFormat;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};

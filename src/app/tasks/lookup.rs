@@ -2,9 +2,9 @@
 
 use crate::app::lookup::as_screens;
 use crate::app::studio::{COARSE_FILM, Grade, SPAN, Shot, TakenPicture};
-use crate::io::background;
 use brillianteer_base::Failure;
 use brillianteer_base::{Watch, unwatched};
+use brillianteer_paper::background;
 use brillianteer_picture::liquid_glass::{GlassPane, PreparedPane, SeenThrough};
 use brillianteer_picture::{Linear, RefractionMap, refract};
 use brillianteer_picture::{PATTERN_SIDE, filling};

@@ -8,9 +8,9 @@ use crate::app::model::document::Document;
 use crate::app::model::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use crate::app::model::preset::Preset;
 use crate::app::model::saving::{SaveRequest, SavedDesign, Stamp};
-use crate::io::design_file::{self, DesignFormat};
-use crate::io::{has_comments, light_file, scene_file};
 use brillianteer_base::Failure;
+use brillianteer_files::design_file::{self, DesignFormat};
+use brillianteer_files::{has_comments, light_file, scene_file};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 

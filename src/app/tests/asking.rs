@@ -8,8 +8,8 @@ use crate::app::model::export::Selection;
 use crate::app::model::exporting::{ExportEvent, ExportRun};
 use crate::app::model::plan::export_plan;
 use crate::app::tasks::export::run;
-use crate::io::cut_file;
-use crate::io::export::OutputFormat;
+use brillianteer_files::cut_file;
+use brillianteer_paper::export::OutputFormat;
 use egui::{Key, Role};
 use std::path::Path;
 

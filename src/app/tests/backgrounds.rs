@@ -6,7 +6,7 @@ use crate::app::model::action::Computed;
 use crate::app::model::command::Command;
 use crate::app::model::workspace::Pane;
 use crate::app::studio::ShotLight;
-use crate::io::lighting;
+use brillianteer_paper::lighting;
 use brillianteer_picture::RefractionMap;
 use brillianteer_picture::liquid_glass::PaneQuality;
 

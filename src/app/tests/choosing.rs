@@ -60,7 +60,7 @@ fn keys_open_the_chooser_move_in_it_choose_and_leave() {
 fn a_file_with_unsaved_work_is_asked_about_before_another_cut_begins() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
-    std::fs::write(&path, crate::io::library::cut("tolkowsky").unwrap()).unwrap();
+    std::fs::write(&path, brillianteer_files::library::cut("tolkowsky").unwrap()).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
     bench.wait(|editor| editor.model.document.path().is_some());
     bench.type_number("Table", "58");

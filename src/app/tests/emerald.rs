@@ -2,8 +2,8 @@
 
 use super::tiers::{reach, tiers, type_text};
 use super::*;
-use crate::io::design_file;
 use brillianteer_cut::{FindingKind, Outline};
+use brillianteer_files::design_file;
 use brillianteer_math::Plane;
 use brillianteer_scene::Specimen;
 use egui::Role;

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::app::model::dialog::Dialog;
-use crate::io::cut_file;
 use brillianteer_cut::Crown;
+use brillianteer_files::cut_file;
 use brillianteer_render::{MeasureOptions, measure};
 use egui_kittest::kittest::NodeT;
 
@@ -87,7 +87,7 @@ fn what_is_edited_and_saved_opens_again_equal_and_its_figures_are_those_of_the_f
 fn unsaved_work_is_asked_about_before_it_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("other.toml");
-    std::fs::write(&path, crate::io::library::cut("modern-ideal").unwrap()).unwrap();
+    std::fs::write(&path, brillianteer_files::library::cut("modern-ideal").unwrap()).unwrap();
     let open = |bench: &mut Bench| {
         bench.choices.lock().unwrap().push(path.clone());
         bench.choose("File", "Open…");

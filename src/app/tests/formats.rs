@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::app::model::document::Document;
-use crate::io::design_file::{self, DesignFormat};
 use brillianteer_cut::from_mesh::Up;
 use brillianteer_cut::{Design, Glass, MeshShape};
+use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_math::{Surface, TriangleMesh};
 use brillianteer_scene::Specimen;
 use std::sync::Arc;

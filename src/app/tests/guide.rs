@@ -5,7 +5,7 @@ use super::fitting::pick;
 use super::tiers::reach;
 use super::*;
 use crate::app::model::dialog::Dialog;
-use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
+use brillianteer_paper::cutting_sheet::{SheetFormat, cutting_sheet, write};
 use brillianteer_picture::PaperSize;
 use std::path::Path;
 

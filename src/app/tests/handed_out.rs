@@ -4,9 +4,10 @@
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
-use crate::io::design_file::{self, DesignFormat};
-use crate::io::{cut_file, write_rgba_png};
 use brillianteer_cut::Design;
+use brillianteer_files::cut_file;
+use brillianteer_files::design_file::{self, DesignFormat};
+use brillianteer_paper::write_rgba_png;
 use brillianteer_scene::Specimen;
 use egui::OutputCommand;
 use egui_kittest::kittest::NodeT;
@@ -204,13 +205,13 @@ fn files_of_every_kind_are_dropped_on_the_window() {
         &at("mesh.stl"),
     )
     .unwrap();
-    let scene = crate::io::library::scene("subtle-pill").unwrap();
+    let scene = brillianteer_files::library::scene("subtle-pill").unwrap();
     std::fs::write(at("scene.toml"), scene).unwrap();
     let grey: Vec<u8> = [128, 128, 128, 255].repeat(8 * 4);
     write_rgba_png(&at("photo.png"), &grey, (8, 4), "grey").unwrap();
     std::fs::write(
         at("lamp.toml"),
-        crate::io::light_file::text(&brillianteer_scene::light("ring").unwrap()).unwrap(),
+        brillianteer_files::light_file::text(&brillianteer_scene::light("ring").unwrap()).unwrap(),
     )
     .unwrap();
     let mut hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();

@@ -5,7 +5,7 @@ use crate::app::model::action::FileAction;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
 use crate::app::model::opening::OpeningPurpose;
-use crate::io::cut_file;
+use brillianteer_files::cut_file;
 
 #[test]
 fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_lost() {

@@ -7,8 +7,8 @@ use crate::app::model::document::Document;
 use crate::app::model::exporting::ExportForm;
 use crate::app::model::plan::export_plan;
 use crate::app::theme;
-use crate::io::{cut_file, design_file};
 use brillianteer_cut::{Design, MaterialRef};
+use brillianteer_files::{cut_file, design_file};
 use egui::{Color32, Rect, Role, vec2};
 use egui_kittest::kittest::{By, NodeT};
 

@@ -238,7 +238,7 @@ fn a_field_says_what_it_means_and_no_tooltip_stays_over_a_dialog() {
 fn a_note_of_what_was_saved_ends_with_the_next_change() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
-    std::fs::write(&path, crate::io::library::cut("tolkowsky").unwrap()).unwrap();
+    std::fs::write(&path, brillianteer_files::library::cut("tolkowsky").unwrap()).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
     bench.wait(|editor| editor.model.document.path().is_some());
     bench.type_number("Table", "57");

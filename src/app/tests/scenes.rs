@@ -171,7 +171,7 @@ fn a_scene_and_a_shape_of_glass_begin_the_same_way_however_they_are_opened() {
     {
         let first = started(scene.into());
         let path = folder.path().join(format!("{scene}.toml"));
-        std::fs::write(&path, crate::io::library::scene(scene).unwrap()).unwrap();
+        std::fs::write(&path, brillianteer_files::library::scene(scene).unwrap()).unwrap();
         assert_alike(&started(path.clone()), &first, &format!("{scene} as a file"));
         let mut dropped = Bench::new();
         dropped.harness.state_mut().act(FileAction::Dropped(vec![path.clone()]));
@@ -181,7 +181,7 @@ fn a_scene_and_a_shape_of_glass_begin_the_same_way_however_they_are_opened() {
         let Some(shape) = shape else { continue };
         assert_alike(&started(shape.into()), &first, &format!("{shape} by its name"));
         let path = folder.path().join(format!("{shape}.toml"));
-        std::fs::write(&path, crate::io::library::cut(shape).unwrap()).unwrap();
+        std::fs::write(&path, brillianteer_files::library::cut(shape).unwrap()).unwrap();
         assert_alike(&started(path), &first, &format!("{shape} as a file"));
         let mut chosen = Bench::new();
         chosen.harness.state_mut().act(FileAction::Ask(Then::Library(shape.to_owned())));
@@ -232,7 +232,7 @@ fn scenes_glass_and_moved_copies_are_there_again_at_the_next_start() {
     }
     // A design from a file is read from there, under the settings that it had.
     let path = folder.path().join("mine.toml");
-    std::fs::write(&path, crate::io::library::cut("oval").unwrap()).unwrap();
+    std::fs::write(&path, brillianteer_files::library::cut("oval").unwrap()).unwrap();
     let mut bench = start(path.to_str());
     bench.wait(|editor| editor.model.document.path().is_some());
     bench.harness.state_mut().act(Edit::Setting(SettingChange::Exposure(1.5)));

@@ -219,7 +219,8 @@ fn the_window_says_what_is_missing_and_why_glass_cannot_be_searched() {
 fn opened_mesh(folder: &Path) -> Bench {
     let file = folder.join("stone.stl");
     let stone = crate::app::model::document::Document::first().unwrap().specimen().clone();
-    crate::io::design_file::write(&stone, crate::io::design_file::DesignFormat::Stl, &file).unwrap();
+    brillianteer_files::design_file::write(&stone, brillianteer_files::design_file::DesignFormat::Stl, &file)
+        .unwrap();
     opened(Setup { file: Some(file), ..Setup::default() })
 }
 
@@ -267,8 +268,8 @@ fn a_goal_is_saved_and_opened_again() {
     bench.type_number("Greatest Crown angle", "36");
     bench.choices.lock().unwrap().push(file.clone());
     bench.click("Save goal…");
-    bench.wait(|_| crate::io::goal_file::read(&file).is_ok());
-    let goal = crate::io::goal_file::read(&file).unwrap();
+    bench.wait(|_| brillianteer_paper::goal_file::read(&file).is_ok());
+    let goal = brillianteer_paper::goal_file::read(&file).unwrap();
     assert_eq!((goal.measure[1].weight, goal.measure[1].at_most), (-0.5, Some(0.04)));
     assert_eq!(goal.vary["crown_angle"][1], 36.0);
     let mut bench = opened(Setup::default());

@@ -4,8 +4,8 @@ use super::row_defaults::double_click;
 use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::{Action, update};
-use crate::io::design_file::{self, DesignFormat};
 use brillianteer_cut::{Tier, TierChange, TierZone, Tiers};
+use brillianteer_files::design_file::{self, DesignFormat};
 use egui::Role;
 
 /// Returns the tiers of the open design.

@@ -148,7 +148,7 @@ impl CornersOfTier {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
-    use crate::io::as_tiers;
+    use brillianteer_files::as_tiers;
 
     #[test]
     fn corners_that_tiers_can_be_cut_to_lie_on_the_stone() {

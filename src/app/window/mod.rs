@@ -13,7 +13,7 @@ use super::icon::icon;
 use super::setup::{PaintedBy, Setup};
 use super::state_file::StateFile;
 use super::urgency;
-use crate::io::mesh_options::MeshOptions;
+use brillianteer_files::mesh_options::MeshOptions;
 use egui::ViewportBuilder;
 use std::path::PathBuf;
 

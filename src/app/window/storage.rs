@@ -1,7 +1,7 @@
 //! Keeps the window's state between starts, in the file and format of eframe, so that it does not matter which painter ran
 //! last.
 
-use crate::io::{WriteError, write};
+use brillianteer_files::{WriteError, write};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -2,10 +2,10 @@
 
 use super::{PictureSetup, RenderedPicture};
 use crate::cli::console::report;
-use crate::io::StoredLight;
-use crate::io::export::Event;
 use brillianteer_base::Failure;
 use brillianteer_base::Watch;
+use brillianteer_paper::StoredLight;
+use brillianteer_paper::export::Event;
 use brillianteer_picture::{Linear, TemporalHistory, motion_of_view};
 use brillianteer_render::{Job, LightProduct, Output, Partial, Product, Rendered, Steps};
 use brillianteer_scene::View;

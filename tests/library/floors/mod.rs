@@ -413,9 +413,9 @@ fn a_room_that_shows_its_inside_and_a_guest_that_reaches_there_would_be_seen() {
     let text =
         "mod a;\npub mod b;\npub(super) fn c() {}\npub use a::{D, e};\npub use a::F;\npub struct G<T>(T);\n";
     assert_eq!(shown(text), ["D", "F", "G", "b", "c", "e"]);
-    let text = "use crate::io::mesh::{self, read,\n    file::Statement};\ncrate::io::mesh::place::of(); // io::mesh::x";
+    let text = "use brillianteer_files::mesh::{self, read,\n    file::Statement};\ncrate::io::mesh::place::of(); // io::mesh::x";
     assert_eq!(taken_from(text, "io::mesh"), ["read", "file", "place"]);
-    assert_eq!(taken_from("use crate::io::mesh_options::Up;", "io::mesh"), [""; 0]);
+    assert_eq!(taken_from("use brillianteer_files::mesh_options::Up;", "io::mesh"), [""; 0]);
 }
 
 /// Returns the texts of code that name a flag of the command line.

@@ -23,7 +23,7 @@ fn keys(map: &MeasureMap) -> [String; 2] {
 /// Returns a design as tiers.
 fn tiers(name: &str) -> Design {
     let document = Document::of_library(name).unwrap();
-    let tiers = crate::io::as_tiers(document.specimen()).unwrap().with_found_meets();
+    let tiers = brillianteer_files::as_tiers(document.specimen()).unwrap().with_found_meets();
     Design { cut: Cut::Tiers(tiers), ..document.work.design }
 }
 
@@ -44,7 +44,7 @@ fn every_place_is_measured_once_and_coarse_ones_first() {
 #[test]
 fn every_cut_that_comes_with_the_program_offers_two_axes_or_has_nothing_to_vary() {
     let mut offered = 0;
-    for (name, _) in crate::io::library::CUTS {
+    for (name, _) in brillianteer_files::library::CUTS {
         let design = design(name);
         let (map, _) = map(&design);
         let Some(options) = map.options() else {
@@ -63,8 +63,9 @@ fn every_cut_that_comes_with_the_program_offers_two_axes_or_has_nothing_to_vary(
 #[test]
 fn a_side_and_the_tier_by_which_its_scale_is_told_make_no_map() {
     let mut design = design("tolkowsky");
-    design.cut =
-        Cut::Tiers(crate::io::as_tiers(&brillianteer_scene::Specimen::new(design.clone()).unwrap()).unwrap());
+    design.cut = Cut::Tiers(
+        brillianteer_files::as_tiers(&brillianteer_scene::Specimen::new(design.clone()).unwrap()).unwrap(),
+    );
     let all = MapAxis::all(&design.cut);
     let of = |key: &str| all.iter().find(|axis| axis.key == SweepKey::of(key)).unwrap();
     let told = design.cut.tier_of_side(ScaledSide::Crown).unwrap();

@@ -17,9 +17,9 @@ use crate::app::model::saving::SavedDesign;
 use crate::app::model::session::Session;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::work::Work;
-use crate::io::design_file::DesignFormat;
-use crate::io::mesh_options::MeshOptions;
 use brillianteer_base::Failure;
+use brillianteer_files::design_file::DesignFormat;
+use brillianteer_files::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
 
 /// The warning about a mesh whose table may face another way.

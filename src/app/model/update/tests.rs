@@ -20,10 +20,10 @@ use crate::app::model::{Action, Model, Task};
 use crate::app::studio::{Order, Paper, ShotLight, Which};
 use crate::app::tasks::autosave::Autosave;
 use crate::app::tasks::open;
-use crate::io::cut_file;
-use crate::io::lighting;
-use crate::io::mesh_options::MeshOptions;
 use brillianteer_base::Failure;
+use brillianteer_files::cut_file;
+use brillianteer_files::mesh_options::MeshOptions;
+use brillianteer_paper::lighting;
 use std::path::{Path, PathBuf};
 
 /// An editor without a window.
@@ -397,7 +397,8 @@ fn an_answer_for_a_design_that_is_gone_is_not_saved_over_the_next() {
 #[test]
 fn a_mesh_is_asked_for_with_its_options_again_after_the_question() {
     let mut bench = Bench::new();
-    let mesh = MeshOptions { form: crate::io::mesh_options::MeshForm::Triangles, ..MeshOptions::default() };
+    let mesh =
+        MeshOptions { form: brillianteer_files::mesh_options::MeshForm::Triangles, ..MeshOptions::default() };
     bench.act(Edit::Diameter(7.0));
     bench.act(FileAction::Ask(Then::Open("scan.stl".into(), mesh.clone())));
     let request = request(bench.act(DialogAction::GiveUp));

@@ -1,5 +1,5 @@
 use super::*;
-use crate::io::cut_file;
+use brillianteer_files::cut_file;
 use brillianteer_scene::{ASET_CONE, Backing, Medium, Specimen, View};
 use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};
 use egui::{Event, Key, PointerButton, Pos2, Rect, Shape, Theme, vec2};
