@@ -1,5 +1,5 @@
 // Exits from solids that need not be convex: light that leaves may enter again. This is the twin of
-// src/trace/ray/tree.rs.
+// crates/trace/src/ray/tree.rs.
 
 // Light that has left the body, will meet it again and waits to be followed.
 var<private> inbound: array<Inbound, MOST_INBOUND>;

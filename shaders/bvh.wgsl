@@ -1,4 +1,4 @@
-// Intersection of rays with triangles in boxes within boxes: the twin of src/math/bvh.rs.
+// Intersection of rays with triangles in boxes within boxes: the twin of crates/math/src/bvh.rs.
 
 @group(0) @binding(11) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(12) var<storage, read> nodes: array<BvhNode>;

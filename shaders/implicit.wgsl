@@ -1,5 +1,5 @@
 // Intersection of rays with glass shapes (implicit surfaces). In its frame, each shape reaches 1 from the origin.
-// This is the twin of src/math/implicit/roots.rs and of src/trace/ray/facets.rs.
+// This is the twin of crates/math/src/implicit/roots.rs and of crates/trace/src/ray/facets.rs.
 
 @group(0) @binding(1) var<uniform> fields: array<ImplicitSurface, MOST_BODIES>;
 

@@ -40,7 +40,8 @@ var<private> count: u32;
 // The ray from the eye, as it would go on without any stone.
 var<private> straight: Ray;
 
-// Returns the ray along which light is looked up. It is the twin of `SamplePass::mixed` in src/trace/sampling.rs.
+// Returns the ray along which light is looked up. It is the twin of `SamplePass::mixed` in
+// crates/trace/src/sampling.rs.
 fn mixed(ray: Ray) -> Ray {
     let strength = frame.sample.x;
     if strength >= 1.0 || dot(ray.direction, straight.direction) <= 0.0 {

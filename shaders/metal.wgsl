@@ -1,5 +1,6 @@
-// Bodies of metal beside the stones. This is the twin of src/trace/ray/metal_tracer.rs, of its use in
-// src/trace/ray/scene_tracer.rs, of src/trace/ray/lobe_luck.rs, and of the sieve in src/trace/ray/roulette.rs.
+// Bodies of metal beside the stones. This is the twin of crates/trace/src/ray/metal_tracer.rs, of its use in
+// crates/trace/src/ray/scene_tracer.rs, of crates/trace/src/ray/lobe_luck.rs, and of the sieve in
+// crates/trace/src/ray/roulette.rs.
 
 @group(0) @binding(13) var<uniform> metals: array<Body, MOST_METALS>;
 @group(0) @binding(14) var<uniform> roughnesses: array<vec4f, MOST_ROUGHNESS_ROWS>;
@@ -11,6 +12,7 @@ const MOST_REFLECTIONS: u32 = 256u;
 const AWAY: f32 = 2e-6;
 // The lift of mirror images below the surface, as in metal_tracer.rs.
 const LIFT = vec2f(0.9, 0.01);
+// The least sine at which light leaves the true surface, and the parts of a solid angle, as in metal_tracer.rs.
 const LEAST_SINE: f32 = 1e-6;
 const PARTS: f32 = 32.0;
 // The widest side of the square of directions that a ray represents: the root of 4 pi / PARTS.
@@ -173,7 +175,7 @@ fn normals_at(triangle: u32, place: vec3f) -> array<vec3f, 2> {
 }
 
 // Returns the change of the shading normal of a triangle of the present body along a step in its plane, in the world. It
-// is the twin of `change_of_normal` in src/math/shaded_mesh.rs.
+// is the twin of `change_of_normal` in crates/math/src/shaded_mesh.rs.
 fn change_of_normal(triangle: u32, place: vec3f, world_step: vec3f) -> vec3f {
     let t = triangles[triangle];
     let corner = triangles[triangle + body.range.z];

@@ -1,6 +1,6 @@
-// Rough metal: the twin of src/optics/microfacets.rs and of `metal_reflectance` in src/optics/metal.rs, which name
-// the sources. src/trace/gpu/parity/metal.rs runs both on the same numbers. Directions are in a frame whose z axis is
-// the surface's normal, and point away from the surface.
+// Rough metal: the twin of crates/optics/src/microfacets.rs and of `metal_reflectance` in
+// crates/optics/src/metal.rs, which name the sources. crates/trace/src/gpu/parity/metal.rs runs both on the same
+// numbers. Directions are in a frame whose z axis is the surface's normal, and point away from the surface.
 //
 // `roughnesses` holds the tables of surfaces, each of ROUGHNESS_ROWS rows. The first row holds the width of the law
 // of slopes and the mean loss of one reflection. The other rows are the steps of the table of `Roughness::once`: the

@@ -1,7 +1,10 @@
-// Snell's law, Fresnel's formulae and polarisation. Each function has the name of its twin in src/optics and
-// src/trace/beam/coherency.rs, which name the sources. src/trace/gpu/parity.rs runs both on the same numbers.
+// Snell's law, Fresnel's formulae and polarisation. Each function has the name of its twin in crates/optics/src and
+// crates/trace/src/beam/coherency.rs, which name the sources. crates/trace/src/gpu/parity.rs runs both on the same
+// numbers.
 
+// The sine of the angle between a ray and a facet's normal below which the ray counts as perpendicular to the facet.
 const SQUARE_ON: f32 = 1e-4;
+// The least cosine of refraction that a fan is divided by: nearer to the critical angle f32 has no digits left.
 const LEAST_COS_T: f32 = 1e-4;
 
 fn cos_t_squared(cos_i: f32, eta: f32) -> f32 {

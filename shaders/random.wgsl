@@ -1,5 +1,5 @@
-// Numbers whose bits look random: the twin of src/math/random_bits.rs. A number of 64 bits is stored as its low and
-// its high half.
+// Numbers whose bits look random: the twin of crates/math/src/random_bits.rs. A number of 64 bits is stored as its
+// low and its high half.
 
 const GAMMA = vec2u(0x7f4a7c15u, 0x9e3779b9u);
 
@@ -31,7 +31,7 @@ fn shifted64(a: vec2u, by: u32) -> vec2u {
     return vec2u((a.x >> by) | (a.y << (32u - by)), a.y >> by);
 }
 
-// Returns a number whose bits look random. It is the twin of `mixed` in src/math/random_bits.rs.
+// Returns a number whose bits look random. It is the twin of `mixed` in crates/math/src/random_bits.rs.
 fn mixed_bits(number: vec2u) -> vec2u {
     var z = sum64(number, GAMMA);
     z = product64(z ^ shifted64(z, 30u), vec2u(0x1ce4e5b9u, 0xbf58476du));

@@ -1,8 +1,10 @@
-// One chain of bounces, the twin of src/trace/ray.rs. Light that leaves the stone goes to `depart` and from there to
-// `leave`, which scope.wgsl or light.wgsl defines. The functions `entry`, `next_facet` and `facet_normal` describe
-// the surface. Everything here is in the frame of the body, whose unit lengths and absorption have; pose.wgsl
-// converts to it and back.
+// One chain of bounces, the twin of crates/trace/src/ray.rs. Light that leaves the stone goes to `depart` and from
+// there to `leave`, which scope.wgsl or light.wgsl defines. The functions `entry`, `next_facet` and `facet_normal`
+// describe the surface. Everything here is in the frame of the body, whose unit lengths and absorption have;
+// pose.wgsl converts to it and back.
 
+// The least gap before a plane, so that one that rounding has put behind the point is met immediately; also the
+// least divisor of a step.
 const LEAST_GAP: f32 = 1e-30;
 const FAR: f32 = 1e30;
 // The greatest component of a fan or a shift. A larger fan would cover more than the whole sphere, and a larger shift

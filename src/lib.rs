@@ -1,7 +1,7 @@
 //! Exact light in gemstone cuts: takes proportions or planes, and gives ASET, Ideal-Scope, hearts and arrows.
 //!
-//! The modules form floors, each of which imports only from those before it: `math`, `optics`; `cut`; `scene`; `trace`;
-//! `picture`, `measure`; `render`; `search`; `io`; `cli`, `app`. See docs/architecture.md.
+//! Each module but `cli` and `app` is a crate of its own, and `io` is two of them, `files` and `paper`. docs/architecture.md
+//! says what each owns and which of the others it uses.
 //!
 //! From a cut file to figures:
 //!

@@ -1,4 +1,4 @@
-//! Floor 8: the editor, a window in which a stone is cut and its light is watched.
+//! The editor, a window in which a stone is cut and its light is watched.
 
 mod arrows;
 mod described;

@@ -1,4 +1,10 @@
 //! The pictures and drawings that a view can show.
+//!
+//! To add one, add a row. A picture in a scope needs nothing else, because its key is that of a `Picture::Scoped`.
+//! Any other needs an arm in `ShotTracer::take` (`studio/take.rs`), a job in `studio/jobs.rs`, and a line in
+//! `PartialEq for Shot` (`studio/order.rs`) for each new setting; one that is not traced is drawn in
+//! `views/pane.rs` or looked up in `tasks/lookup.rs`. Those that exports offer stand first; `EXPORTED` counts them.
+//! Say in `is_seen`, `takes_overlay`, `has_copies` and `is_pane` what it is: the compiler does not ask.
 
 use crate::app::described::described;
 use brillianteer_picture::{Picture, Scoped, named};

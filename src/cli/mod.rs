@@ -1,4 +1,4 @@
-//! Floor 8: the command line. Each command has a file of its own.
+//! The command line. Each command has a file of its own.
 //!
 //! `options` holds the options that several commands share, `specimen` loads the stone of a command, `batch` runs a
 //! command on several files, `names` resolves the names of cuts and scenes, and `console` prints.

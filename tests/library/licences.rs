@@ -33,28 +33,39 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
 }
 
+/// The beginning of the names of the program's own crates.
+const OWN: &str = "brillianteer";
+
+/// Returns the names of the crates that one of the program's own crates names as dependencies, but not those of its tests.
+fn named_by(own: &str) -> BTreeSet<String> {
+    let folder = own.strip_prefix("brillianteer-").map_or(String::new(), |name| format!("crates/{name}/"));
+    let manifest: toml::Table = read(&format!("{folder}Cargo.toml")).parse().unwrap();
+    // Some dependencies are for one kind of system only.
+    let systems = manifest.get("target").and_then(|t| t.as_table()).into_iter().flat_map(|t| t.values());
+    let tables = systems.filter_map(|system| system.get("dependencies")).chain(manifest.get("dependencies"));
+    tables.filter_map(|table| table.as_table()).flat_map(|table| table.keys().cloned()).collect()
+}
+
 /// Returns the names and versions of all crates that the program needs, whatever the platform and the features: those that
-/// Cargo.lock reaches from the dependencies of Cargo.toml, without those of tests.
+/// Cargo.lock reaches from its own crates, without those of tests.
 fn needed() -> BTreeSet<(String, String)> {
     let lock: toml::Table = read("Cargo.lock").parse().unwrap();
-    let manifest: toml::Table = read("Cargo.toml").parse().unwrap();
     let text = |value: &toml::Value, key: &str| {
         value.get(key).and_then(|v| v.as_str()).unwrap_or_default().to_owned()
     };
     let mut known: BTreeMap<(String, String), Vec<String>> = BTreeMap::new();
     for package in lock["package"].as_array().unwrap() {
-        let names = package.get("dependencies").and_then(|d| d.as_array()).cloned().unwrap_or_default();
-        let names = names.iter().map(|name| name.as_str().unwrap().to_owned()).collect();
-        known.insert((text(package, "name"), text(package, "version")), names);
+        let name = text(package, "name");
+        let entries = package.get("dependencies").and_then(|d| d.as_array()).cloned().unwrap_or_default();
+        let mut entries: Vec<String> =
+            entries.iter().map(|entry| entry.as_str().unwrap().to_owned()).collect();
+        if name.starts_with(OWN) {
+            let direct = named_by(&name);
+            entries.retain(|entry| direct.contains(entry.split(' ').next().unwrap()));
+        }
+        known.insert((name, text(package, "version")), entries);
     }
-    let own = known.keys().find(|(name, _)| name == "brillianteer").unwrap().clone();
-    // Some dependencies are for one kind of system only.
-    let systems = manifest.get("target").and_then(|t| t.as_table()).into_iter().flat_map(|t| t.values());
-    let tables: Vec<_> = systems.chain([&toml::Value::Table(manifest.clone())]).cloned().collect();
-    let is_direct =
-        |name: &str| tables.iter().any(|t| t.get("dependencies").is_some_and(|d| d.get(name).is_some()));
-    let mut open: Vec<String> = known[&own].clone();
-    open.retain(|name| is_direct(name.split(' ').next().unwrap()));
+    let mut open = known.iter().find(|((name, _), _)| name == OWN).unwrap().1.clone();
     let mut found = BTreeSet::new();
     while let Some(entry) = open.pop() {
         // An entry has a version only where the crate occurs in several.
@@ -66,6 +77,7 @@ fn needed() -> BTreeSet<(String, String)> {
             }
         }
     }
+    found.retain(|(name, _)| !name.starts_with(OWN));
     found
 }
 

@@ -1,8 +1,7 @@
 //! The table of proportions: every family of cuts describes its numbers by rows, one for each proportion.
 //!
 //! The panel, the profile, cut files, `info`, help, errors and warnings read names, keys, units, ranges and meanings from
-//! here and nowhere else. A new family is a table of rows, a variant of [`Cut`] and a place in
-//! [`FAMILIES`](super::FAMILIES).
+//! here and nowhere else. The folder `families` says how to add one.
 
 use super::Cut;
 use super::family_cut::{MakeNet, TotalDepth};

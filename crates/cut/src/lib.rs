@@ -1,4 +1,4 @@
-//! Floor 1: cuts as numbers: the round brilliant in closed form, families of cuts, cutters' tiers with their meets,
+//! Cuts as numbers: the round brilliant in closed form, families of cuts, cutters' tiers with their meets,
 //! plane lists, meshes, glass shapes, material and size.
 //!
 //! Numbers in files are percent of the girdle diameter and degrees. Planes come out in the stone's frame: +z out of the

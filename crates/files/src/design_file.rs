@@ -1,5 +1,12 @@
 //! Reads and writes designs in all formats. The content of a file decides its format, and the ending of its name only
 //! where the content does not.
+//!
+//! To add a format, write a file as `asc.rs` is, with `looks_like` for the first bytes, `read` to an
+//! [`ImportedDesign`] (with warnings for what the program does not hold) and `write` to an [`EncodedDesign`] (with
+//! what the format cannot hold). No input may panic. Add a variant of [`DesignFormat`] with its place in `ALL`, its
+//! ending and its arms in `read_with` and `written`; then the endings in messages (`src/cli/convert.rs`,
+//! `optimise.rs` and `retarget.rs` there, `src/app/model/update/files.rs`), the readers of tests/library/fuzz.rs,
+//! and docs/formats.md.
 
 use super::cut_file;
 use super::cutters::WarningList;

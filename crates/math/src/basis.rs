@@ -37,6 +37,7 @@ impl Basis {
     }
 
     /// Returns the image coordinates of a point or direction; its part along `toward` is dropped.
+    #[inline]
     pub fn project(&self, p: DVec3) -> DVec2 {
         DVec2::new(self.right.dot(p), self.up.dot(p))
     }

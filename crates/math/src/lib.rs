@@ -1,4 +1,4 @@
-//! Floor 0: planes, convex solids, convex polygons, triangles and implicit surfaces, in f64.
+//! Geometry: planes, convex solids, convex polygons, triangles and implicit surfaces, in f64.
 
 mod affine;
 mod ball;

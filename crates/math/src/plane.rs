@@ -26,12 +26,14 @@ impl Plane {
     ///
     /// A slope of 0 gives a table, π/2 a girdle facet, π a culet. Facet tables describe a pavilion facet by its angle
     /// b from the girdle plane; the slope is then π - b.
+    #[inline]
     pub fn from_slope(slope: f64, azimuth: f64, offset: f64) -> Self {
         let (sin, cos) = slope.sin_cos();
         Self::new(DVec3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos), offset)
     }
 
     /// Returns the same half-space with a unit normal; `None` where the normal has no direction or a number is not finite.
+    #[inline]
     pub fn normalized(&self) -> Option<Self> {
         // The scaling keeps the square of a tiny or huge component from vanishing or overflowing.
         let largest = self.normal.abs().max_element();
@@ -42,12 +44,14 @@ impl Plane {
     }
 
     /// Returns a plane of a body as a plane in the world.
+    #[inline]
     pub fn placed(&self, pose: &Pose) -> Self {
         let normal = pose.turn * self.normal;
         Self { normal, offset: self.offset * pose.scale + normal.dot(pose.at) }
     }
 
     /// Returns the distance of `point` outside the half-space (negative inside), in units of the normal's length.
+    #[inline]
     pub fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }

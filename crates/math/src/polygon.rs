@@ -4,6 +4,7 @@ use super::Affine;
 use glam::DVec2;
 
 /// Returns the signed area, positive for counter-clockwise corners.
+#[inline]
 pub fn area(corners: &[DVec2]) -> f64 {
     let Some((&first, rest)) = corners.split_first() else { return 0.0 };
     // The area is computed relative to one corner, so that a small polygon far from the origin keeps its digits.
@@ -15,6 +16,7 @@ const THINNEST: f64 = 1e-13;
 
 /// Returns the centroid of the area. Where the area vanishes, it is the mean of the corners; without corners, the
 /// origin.
+#[inline]
 pub fn centroid(corners: &[DVec2]) -> DVec2 {
     let Some((&first, rest)) = corners.split_first() else { return DVec2::ZERO };
     let (mut moment, mut twice, mut square) = (DVec2::ZERO, 0.0, 0.0_f64);
@@ -54,6 +56,7 @@ pub fn point_in_polygon(corners: &[DVec2], area: f64, place: DVec2) -> DVec2 {
 }
 
 /// Returns whether `p` lies inside by more than `margin`. A negative margin allows points that far outside.
+#[inline]
 pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     corners.len() > 2
@@ -61,6 +64,7 @@ pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
 }
 
 /// Writes the part of a convex polygon where `keep` is not negative into `out`, which is emptied first.
+#[inline]
 pub fn clip(corners: &[DVec2], keep: Affine, out: &mut Vec<DVec2>) {
     out.clear();
     let Some(&last) = corners.last() else { return };

@@ -27,6 +27,7 @@ impl Pose {
     pub const STILL: Self = Self { at: DVec3::ZERO, turn: DQuat::IDENTITY, scale: 1.0 };
 
     /// Returns the pose of a body that is only turned.
+    #[inline]
     pub fn turned(turn: DQuat) -> Self {
         Self { turn, ..Self::STILL }
     }
@@ -44,6 +45,7 @@ impl Pose {
     }
 
     /// Returns the pose that carries a body first by `first` and then by this pose.
+    #[inline]
     pub fn after(&self, first: &Self) -> Self {
         Self { at: self.place(first.at), turn: self.turn * first.turn, scale: self.scale * first.scale }
     }

@@ -1,6 +1,6 @@
-//! Floor 4: figures. They state the shares of the light by its origin, each with its error.
+//! Figures. They state the shares of the light by its origin, each with its error.
 //!
-//! [`measure`](crate::measure()) takes a design to its figures in one call.
+//! `measure()` of the crate `render` takes a design to its figures in one call.
 
 mod bow_tie;
 mod brilliant_proportions;

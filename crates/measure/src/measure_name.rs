@@ -1,4 +1,11 @@
 //! The names of measures.
+//!
+//! To add a measure, compute it as an `Interval` from the beams, as a field of `LightMeasures`, of
+//! `PatternMeasures` where it depends on the stone's size and on what the eye resolves, or of `Scintillation`. Add
+//! a variant here with its place in `OTHERS` and in the text of `NoMeasure`, and what the compiler then asks for.
+//! Its law goes into tests/library/measures.rs, its formula into docs/optics.md, its key into docs/formats.md. A
+//! search climbs without slopes where a measure has no derivatives. A measure that is sampled has no interval, and
+//! no name here.
 
 use super::interval::Interval;
 use super::light_measures::{LightMeasures, MeasureSettings};

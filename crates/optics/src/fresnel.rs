@@ -23,16 +23,19 @@ pub struct Fresnel {
 
 impl Fresnel {
     /// Returns the share of s-polarised power that is reflected, 0..=1; the rest is transmitted.
+    #[inline]
     pub fn reflectance_s(&self) -> f64 {
         self.power(self.r_s)
     }
 
     /// Returns the share of p-polarised power that is reflected, 0..=1; the rest is transmitted.
+    #[inline]
     pub fn reflectance_p(&self) -> f64 {
         self.power(self.r_p)
     }
 
     /// Returns the share of unpolarised power that is reflected, 0..=1; the rest is transmitted.
+    #[inline]
     pub fn reflectance(&self) -> f64 {
         0.5 * (self.reflectance_s() + self.reflectance_p())
     }
@@ -41,21 +44,25 @@ impl Fresnel {
     /// [`Self::reflectance_s`].
     ///
     /// The amplitude is real and not negative, as in Born & Wolf's eq. 20: refraction shifts no phase.
+    #[inline]
     pub fn transmission_s(&self) -> f64 {
         (1.0 - self.reflectance_s()).sqrt()
     }
 
     /// Returns the transmitted amplitude of p-polarised light, normalised to flux as [`Self::transmission_s`] is.
+    #[inline]
     pub fn transmission_p(&self) -> f64 {
         (1.0 - self.reflectance_p()).sqrt()
     }
 
     /// Returns whether the surface reflects all light.
+    #[inline]
     pub fn is_total(&self) -> bool {
         self.cos_t.is_none()
     }
 
     /// Returns |r|², but exactly 1 in total reflection.
+    #[inline]
     fn power(&self, r: Complex64) -> f64 {
         if self.is_total() { 1.0 } else { r.norm_sqr() }
     }
@@ -95,11 +102,13 @@ pub fn reflectance(cos_i: f64, eta: f64) -> Option<f64> {
 }
 
 /// Returns (a - b) / (a + b): Born & Wolf eq. 21 divided by the transmitted index.
+#[inline]
 fn partial(a: f64, b: f64) -> Complex64 {
     Complex64::from((a - b) / (a + b))
 }
 
 /// Returns (a - ib) / (a + ib), of modulus 1 and phase -2 atan(b / a), which is Born & Wolf eq. 60.
+#[inline]
 fn total(a: f64, b: f64) -> Complex64 {
     let square = a * a + b * b;
     if square == 0.0 {

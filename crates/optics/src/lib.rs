@@ -1,7 +1,7 @@
 //! The optics of surfaces and of the inside of a stone: refraction, reflection, dispersion and absorption; and the
 //! colour of the light that comes out, from its spectrum to its encoding.
 //!
-//! Floor 0: this module knows nothing of cuts, scenes or tracers. Conventions in all modules: wavelengths are in
+//! This crate knows nothing of cuts, scenes or tracers. Conventions in all modules: wavelengths are in
 //! nanometres unless the name says `um`; directions are unit vectors *of travel*; `eta` = index on the incident side
 //! / index on the transmitted side; total internal reflection is a value (`None`), never an error.
 

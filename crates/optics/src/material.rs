@@ -1,4 +1,8 @@
 //! Named materials: the refraction and the absorption of each, and the source of the numbers.
+//!
+//! To add a material, add an entry with source, range of validity and density, a test of its printed values, and a
+//! row in docs/optics.md; a coloured gem also needs its bands in `gems/table.rs`. Glasses by index and Abbe number
+//! are rows of `glasses.rs`.
 
 use super::absorption::Absorption;
 use super::colour::LUMINANCE;

@@ -88,11 +88,13 @@ pub(super) fn cos_t_squared(cos_i: f64, eta: f64) -> f64 {
 /// Returns the angle of incidence in radians beyond which reflection is total, asin(1 / eta) (Born & Wolf §1.5.4).
 ///
 /// For a stone in air `eta` is its index. `None` where reflection is never total (`eta` <= 1).
+#[inline]
 pub fn critical_angle(eta: f64) -> Option<f64> {
     (eta > 1.0).then(|| (1.0 / eta).asin())
 }
 
 /// Returns the angle of incidence in radians at which no p-polarised light is reflected, atan(1 / eta) (Born & Wolf §1.5.3).
+#[inline]
 pub fn brewster_angle(eta: f64) -> f64 {
     (1.0 / eta).atan()
 }

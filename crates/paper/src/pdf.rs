@@ -3,6 +3,8 @@
 //! used.
 //!
 //! Source: ISO 32000-1, PDF 1.7; sections are named where they are used.
+//!
+//! pdf-writer writes the objects. svg2pdf 0.13 and krilla-svg 0.8 would bring a second, older usvg.
 
 mod content;
 mod deflate;

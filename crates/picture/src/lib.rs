@@ -1,4 +1,4 @@
-//! Floor 4: pictures. A picture combines a view, a scope and a reading of the light; `trace` does the tracing itself.
+//! Pictures. A picture combines a view, a scope and a reading of the light; `trace` does the tracing itself.
 
 mod bloom;
 mod by_beams;

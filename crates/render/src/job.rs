@@ -1,5 +1,14 @@
 //! Jobs: the request for a picture, a map or figures as one value, with the scene, the view, the film, the product
 //! and the quality. A job is plain data, so that it can be sent to a thread, a page or another machine.
+//!
+//! To add a product, add a variant of `Product` with what it needs as plain data, its demands in `plan`, the ranges
+//! of its numbers in `check`, and in `renderer` its `Output`, its usual number of samples and its arm in `attempt`.
+//!
+//! To add a reading of a scope's light, which beams, rays and the card can all give, add a variant of `Reading`,
+//! its layer in `crates/picture/src/layer.rs`, its channels in `by_rays.rs` and `by_gpu.rs` there, and its arms in
+//! `scope` and in `crates/paper/src/export/sheet.rs`. Other colours for the same light need no product: they are
+//! another palette. Numbers that only exact beams have need none either: order a scope without readings by beams,
+//! and paint a `Layer` of `Rendered::beams`.
 
 use super::Wanted;
 use super::surroundings::Surroundings;

@@ -1,4 +1,4 @@
-//! Floor 5: does jobs. A [`Job`] is plain data: the scene, the view, the film, the product and the quality. A
+//! Does jobs. A [`Job`] is plain data: the scene, the view, the film, the product and the quality. A
 //! [`Renderer`] makes the product, by the tracer that [`Renderer::plan`] alone chooses.
 
 mod beam_cache;

@@ -1,4 +1,7 @@
 //! Pictures under light: adds up their passes, in strips of rows or as a whole that is refined.
+//!
+//! In strips, one strip at a time is held, so lower strips take less memory. A picture that is refined as a whole
+//! holds all of its strips, each with copies of the solids, so lower strips would save nothing.
 
 use super::card::Backend;
 use super::job::{Job, LightProduct, Steps};

@@ -1,4 +1,16 @@
 //! The renderer: does jobs, by the tracer that is planned for each.
+//!
+//! Where an attempt ends in `RenderError::Card`, the renderer plans again without a card, sends a `Partial::Note`,
+//! by which callers know that all parts so far are made anew, and attempts the whole job on the processor. What
+//! happens to the jobs that follow depends on the error:
+//!
+//! - `OutOfMemory`: `Gpu::check` reports it once and forgets it, so the next job tries the card again.
+//! - Errors for which `GpuError::is_lost` is true (no card, too limited, failed): no later job of this renderer
+//!   tries the card.
+//! - All others say that the job is beyond the card (its bands, triangles, metal, mixed kinds): the next job may
+//!   use it.
+//!
+//! Refraction maps and traced panes never use a card.
 
 use super::beam_cache::BeamCache;
 use super::card::{Backend, Card};

@@ -37,6 +37,7 @@ impl DomeLight {
     }
 
     /// Returns the radiance in the direction of a unit vector, 0 to 1, of the dome over the unit vector `zenith`.
+    #[inline]
     pub fn radiance(&self, direction: DVec3, zenith: DVec3) -> f64 {
         let elevation = elevation_deg(direction, zenith);
         if elevation < 0.0 || self.head_deg > 0.0 && elevation >= 90.0 - self.head_deg {

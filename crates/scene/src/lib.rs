@@ -1,4 +1,4 @@
-//! Floor 2: stones, the viewpoint, and the light. Data only.
+//! Stones, the viewpoint, and the light. Data only.
 
 mod background;
 mod background_ref;

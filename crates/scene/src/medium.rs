@@ -51,6 +51,7 @@ impl Medium {
     }
 
     /// Returns whether the medium absorbs nothing.
+    #[inline]
     pub fn is_clear(&self) -> bool {
         self.absorption == [0.0; 2]
     }

@@ -1,4 +1,4 @@
-//! Floor 6: finds better designs. A [`Goal`] states as plain data the measures to raise or lower, the numbers of a
+//! Finds better designs. A [`Goal`] states as plain data the measures to raise or lower, the numbers of a
 //! design that may change, and the limits; an [`Objective`] appraises a design by it, with derivatives where the
 //! light has them; a [`DesignSearch`] scatters designs over all ranges, and then climbs from the best.
 

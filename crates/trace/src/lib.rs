@@ -1,5 +1,8 @@
-//! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share Fresnel's equations, the
+//! The tracers, which follow light through stones. Exact beams and point rays share Fresnel's equations, the
 //! stone, the view and the guess of the next facet, which each of them verifies in its own way.
+//!
+//! A tracer answers with energy by direction, or by the response that each channel and band of wavelengths is
+//! given, never with a colour of its own.
 
 pub mod beam;
 mod dispersed_ray;

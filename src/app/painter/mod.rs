@@ -3,6 +3,10 @@
 //! Only what differs from the last image is painted: [`damage`] finds the areas, by a hash of all pieces that are seen in
 //! each tile of the image. The image is that of egui's painter for graphics cards, except for rounding; the tests say how
 //! much rounding may change.
+//!
+//! Other painters on the processor were no match: egui_software_backend 0.0.3 paints everything anew when one mesh
+//! changes, a whole panel with each number; dream-soft-render 1.0 has no linear filter and at most 1280 × 720
+//! pixels.
 
 mod area;
 mod blend;

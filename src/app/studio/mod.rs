@@ -2,6 +2,11 @@
 //!
 //! A newer order outdates an older one, whose work is dropped. Only the first rough pictures are always finished, so
 //! that some picture always follows the user's hand.
+//!
+//! The studio answers an order in grades: rough, as quickly as `pace` has found to keep up with the hand; then fair
+//! and fine, with figures; then figures against tilt; then what is left of sweeps, whose coarse points came before
+//! the fine pictures; last, renders by rays get more passes. What was answered is not traced again: a new name
+//! traces nothing, and another exposure or overlay is made of the light that is kept (`undeveloped`).
 
 mod backgrounds;
 mod develop;

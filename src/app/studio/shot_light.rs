@@ -1,4 +1,6 @@
 //! The light of shots: as it is at hand, and whole.
+//!
+//! Whatever is refined, exported or copied is made under the whole light.
 
 use brillianteer_base::Failure;
 use brillianteer_base::Watch;

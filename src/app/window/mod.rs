@@ -2,6 +2,8 @@
 //!
 //! A driver that computes on the processor (Mesa's llvmpipe, Microsoft's Basic Render Driver) counts as no card: it needs
 //! many times as long to paint a window as [`painter`](super::painter), on the cores that trace light.
+//!
+//! The window's place and the editor's state are kept in the same file whoever paints.
 
 mod by_card;
 mod by_processor;

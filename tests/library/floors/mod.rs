@@ -1,153 +1,9 @@
-//! Checks the structure of the source: a room imports only from floors below its own.
+//! Checks rules of the source that no compiler holds. Which crate may use which is said by their manifests.
 
 mod circles;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-const FLOORS: [(&str, u32); 12] = [
-    ("math", 0),
-    ("optics", 0),
-    ("cut", 1),
-    ("scene", 2),
-    ("trace", 3),
-    ("picture", 4),
-    ("measure", 4),
-    ("render", 5),
-    ("search", 6),
-    ("io", 7),
-    ("cli", 8),
-    ("app", 8),
-];
-
-/// A room inside a floor, which others enter by its door alone.
-struct Room {
-    /// The folder in `src`.
-    folder: &'static str,
-    /// The door: all names that others may import.
-    door: &'static [&'static str],
-}
-
-const ROOMS: [Room; 8] = [
-    Room { folder: "math/mending", door: &["Mended", "Mending", "OpenPiece", "SolidPart", "SurfaceError"] },
-    Room {
-        folder: "math/faceting",
-        door: &[
-            "Change",
-            "Face",
-            "Faceted",
-            "MODELLED",
-            "NotFaceted",
-            "PlaneError",
-            "SurfaceKind",
-            "Unfaceted",
-            "deviation",
-            "faceted_hull",
-            "facets",
-            "hull_facets",
-        ],
-    },
-    Room {
-        folder: "cut/from_mesh",
-        door: &[
-            "Doubt",
-            "Evening",
-            "FacetError",
-            "FromMesh",
-            "FromMeshError",
-            "TablePart",
-            "Up",
-            "UpFound",
-            "directions",
-            "find_up",
-            "from_mesh",
-        ],
-    },
-    Room {
-        folder: "cut/meets",
-        door: &[
-            "CornerFault",
-            "GivenSize",
-            "Meet",
-            "MeetError",
-            "MeetFault",
-            "MeetPoint",
-            "SolvedTiers",
-            "TierCorner",
-            "TierOutcome",
-        ],
-    },
-    Room {
-        folder: "picture/liquid_glass",
-        door: &[
-            "Comparison",
-            "Cost",
-            "GlassPane",
-            "LightFrom",
-            "PaneError",
-            "PaneLighting",
-            "PaneQuality",
-            "PanesOnCard",
-            "PreparedPane",
-            "SeenThrough",
-            "Shifts",
-            "compare",
-            "layer",
-            "pane",
-            "surroundings",
-            "traced",
-        ],
-    },
-    Room {
-        folder: "picture/refraction",
-        door: &["Backdrop", "Carried", "MapBand", "RefractionMap", "SourcePlace", "Survey", "refract"],
-    },
-    Room {
-        folder: "io/mesh",
-        door: &[
-            "FINENESS",
-            "MAX_BYTES",
-            "MaterialHint",
-            "MeshBody",
-            "MeshFile",
-            "Stated",
-            "looks_like",
-            "parse",
-            "read",
-            "read_bodies",
-            "read_shaded",
-            "stated_in_stl",
-            "upward",
-            "write_glb",
-            "write_obj",
-            "write_ply",
-            "write_shaded",
-            "write_stl",
-        ],
-    },
-    Room {
-        folder: "io/refraction",
-        door: &[
-            "Coding",
-            "LoadedMap",
-            "MOST_MAP_BANDS",
-            "MOST_MAP_PIXELS",
-            "MOST_MEGABYTES",
-            "MOST_PLACES",
-            "Page",
-            "Template",
-            "code_of",
-            "diffuse_path",
-            "paths",
-            "read",
-            "takes",
-            "write_diffuse",
-            "write_page",
-            "write_places",
-            "write_template",
-        ],
-    },
-];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
@@ -155,6 +11,18 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
         .flat_map(|p| if p.is_dir() { sources(&p) } else { vec![p] })
         .filter(|p| p.extension().is_some_and(|e| e == "rs"))
         .collect()
+}
+
+/// Returns the folders of the sources of the program and of all crates.
+fn crates() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let crates = std::fs::read_dir(root.join("crates")).unwrap().map(|entry| entry.unwrap().path());
+    crates.chain([root.to_path_buf()]).map(|folder| folder.join("src")).collect()
+}
+
+/// Returns the files of the program and of all crates, without those of tests, benches and examples.
+fn all_sources() -> Vec<PathBuf> {
+    crates().iter().flat_map(|folder| sources(folder)).collect()
 }
 
 /// Returns a text without its tests. Where they lie in a file of their own, the code goes on behind the line that names it.
@@ -165,53 +33,10 @@ fn untested(text: &str) -> String {
     std::iter::once(before).chain(behind.map(|(_, rest)| rest)).collect()
 }
 
-/// Returns the rooms that a text imports from by `crate::room`, outside its comments.
-fn imports(text: &str) -> Vec<&str> {
-    let code = text.lines().map(|line| line.split("//").next().unwrap_or(""));
-    let after = code.flat_map(|line| line.split("crate::").skip(1));
-    after.map(|t| t.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
-}
-
-/// Returns whether a text that lies `steps` modules deep in its room leaves the room by `super`.
-fn climbs_out(text: &str, steps: usize) -> bool {
-    // Inside a file's `mod tests` one more step is needed to leave the room.
-    untested(text).contains(&"super::".repeat(steps + 1))
-}
-
-fn floor(room: &str) -> Option<u32> {
-    FLOORS.iter().find(|(name, _)| *name == room).map(|(_, floor)| *floor)
-}
-
 #[test]
 fn code_behind_tests_in_a_file_of_their_own_is_seen() {
     let text = "a;\n#[cfg(test)]\nmod tests;\nb;\n#[cfg(test)]\nmod others {\n    c;\n}\nd;\n";
     assert_eq!(untested(text), "a;\nb;\n");
-}
-
-#[test]
-fn no_floor_imports_from_its_own_or_a_higher_one() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut checked = 0;
-    for path in sources(&src) {
-        let inside = path.strip_prefix(&src).unwrap();
-        let room = inside.iter().next().unwrap().to_string_lossy().replace(".rs", "");
-        let Some(own) = floor(&room) else { continue };
-        let text = std::fs::read_to_string(&path).unwrap();
-        let steps = inside.iter().count() - 1 - usize::from(inside.ends_with("mod.rs"));
-        assert!(!climbs_out(&text, steps), "{}: leaves its room by super::, not crate::", path.display());
-        for other in imports(&text).into_iter().filter(|r| *r != room) {
-            let Some(other_floor) = floor(other) else {
-                panic!("{}: imports '{other}', no room", path.display())
-            };
-            assert!(
-                other_floor < own,
-                "{}: floor {own} imports {other}, floor {other_floor}",
-                path.display()
-            );
-            checked += 1;
-        }
-    }
-    assert!(checked > 30, "only {checked} imports were seen: the check has lost its eyes");
 }
 
 /// Returns the lines of a text that name a tracer, outside comments and test modules.
@@ -226,15 +51,15 @@ fn naming_a_tracer(code: &str) -> Vec<&str> {
 #[test]
 fn only_the_renderer_names_a_tracer() {
     assert_eq!(naming_a_tracer("let x = 1;\n// Backend::Rays\nBackend::Rays\n"), ["Backend::Rays"]);
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let renderer = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/render");
     let mut inside = 0;
-    for path in sources(&src) {
+    for path in all_sources() {
         let text = untested(&std::fs::read_to_string(&path).unwrap());
         let lines = naming_a_tracer(&text);
-        if path.starts_with(src.join("render")) {
+        if path.starts_with(&renderer) {
             inside += lines.len();
         } else {
-            assert!(lines.is_empty(), "{}: {lines:?}: only src/render decides who traces", path.display());
+            assert!(lines.is_empty(), "{}: {lines:?}: only crates/render decides who traces", path.display());
         }
     }
     assert!(inside > 10, "the renderer names only {inside}: the check has lost its eyes");
@@ -254,9 +79,8 @@ fn public_types(code: &str) -> Vec<&str> {
 
 #[test]
 fn no_two_public_types_have_one_name() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut places = BTreeMap::<String, Vec<PathBuf>>::new();
-    for path in sources(&src).into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
+    for path in all_sources().into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
         let text = untested(&std::fs::read_to_string(&path).unwrap());
         for name in public_types(&text) {
             places.entry(name.to_owned()).or_default().push(path.clone());
@@ -317,10 +141,9 @@ fn texts_as_errors(text: &str) -> Vec<String> {
 
 #[test]
 fn no_error_that_other_files_see_is_a_bare_text() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut results = 0;
     let mut bare = vec![];
-    for path in sources(&src).into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
+    for path in all_sources().into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
         let text = std::fs::read_to_string(&path).unwrap();
         results += text.matches("Result<").count();
         bare.extend(texts_as_errors(&text).into_iter().map(|item| format!("{}: {item}", path.display())));
@@ -334,88 +157,6 @@ fn no_error_that_other_files_see_is_a_bare_text() {
          type Err = String;\npub fn j() -> Result<String, Fault> {\n// pub fn k() -> Result<u8, String>\n",
     );
     assert_eq!(seen.len(), 5, "{seen:#?}");
-}
-
-/// Splits the text behind a path, an identifier or a list in braces, into the first identifier of each entry.
-fn first_names(text: &str) -> Vec<String> {
-    let list = text.strip_prefix('{').map_or_else(
-        || text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or(""),
-        |rest| rest.split('}').next().unwrap_or(""),
-    );
-    let first = |entry: &str| {
-        entry.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("").to_owned()
-    };
-    list.split(',').map(first).filter(|name| !name.is_empty()).collect()
-}
-
-/// Returns the names that a room's `mod.rs` shows to others: what it declares without being private, and what it passes on.
-fn shown(text: &str) -> Vec<String> {
-    let mut names = vec![];
-    for item in text.split("\npub").skip(1) {
-        let item =
-            if item.starts_with('(') { item.split_once(')').map_or("", |(_, rest)| rest) } else { item };
-        match item.trim_start().split_once(char::is_whitespace) {
-            Some(("use", path)) => {
-                let path = path.split(';').next().unwrap_or("").trim();
-                names.extend(first_names(path.split_once("::").map_or(path, |(_, rest)| rest)));
-            }
-            Some((_, declared)) => names.extend(first_names(declared)),
-            None => {}
-        }
-    }
-    names.retain(|name| name != "tests");
-    names.sort();
-    names
-}
-
-/// Returns the names that a text imports by a path, or uses by it.
-fn taken_from(text: &str, path: &str) -> Vec<String> {
-    let path = format!("{path}::");
-    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
-    code.split(&path).skip(1).flat_map(first_names).filter(|name| name != "self" && name != "tests").collect()
-}
-
-#[test]
-fn a_room_inside_a_floor_is_entered_by_its_door_alone() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let src = root.join("src");
-    let others = ["src", "tests", "benches", "examples"].map(|folder| sources(&root.join(folder))).concat();
-    for Room { folder, door } in ROOMS {
-        let entrance = src.join(folder).join("mod.rs");
-        let text = std::fs::read_to_string(&entrance).unwrap();
-        assert_eq!(shown(&text), door, "{}: it shows other names than those of its door", entrance.display());
-        let mut guests = 0;
-        // These checks have paths in their texts.
-        let is_check =
-            |path: &Path| path.ends_with(file!()) || path.starts_with(root.join("tests/library/floors"));
-        let is_guest = |path: &&PathBuf| !path.starts_with(src.join(folder)) && !is_check(path);
-        for path in others.iter().filter(is_guest) {
-            let text = std::fs::read_to_string(path).unwrap();
-            let (floor, room) = folder.split_once('/').unwrap();
-            let mut taken = taken_from(&text, &format!("{floor}::{room}"));
-            if path.parent() == Some(&src.join(floor)) {
-                taken.extend(taken_from(&text, &format!("super::{room}")));
-            }
-            for name in taken {
-                let is_shown = door.contains(&name.as_str());
-                assert!(is_shown, "{}: reaches inside {folder} for {name}", path.display());
-                guests += 1;
-            }
-        }
-        // The floor itself passes on what leaves this room.
-        let is_passed_on = folder == "picture/refraction";
-        assert!(guests > 0 || is_passed_on, "{folder}: nobody enters it; the check has lost its eyes");
-    }
-}
-
-#[test]
-fn a_room_that_shows_its_inside_and_a_guest_that_reaches_there_would_be_seen() {
-    let text =
-        "mod a;\npub mod b;\npub(super) fn c() {}\npub use a::{D, e};\npub use a::F;\npub struct G<T>(T);\n";
-    assert_eq!(shown(text), ["D", "F", "G", "b", "c", "e"]);
-    let text = "use brillianteer_files::mesh::{self, read,\n    file::Statement};\ncrate::io::mesh::place::of(); // io::mesh::x";
-    assert_eq!(taken_from(text, "io::mesh"), ["read", "file", "place"]);
-    assert_eq!(taken_from("use brillianteer_files::mesh_options::Up;", "io::mesh"), [""; 0]);
 }
 
 /// Returns the texts of code that name a flag of the command line.
@@ -442,11 +183,10 @@ fn a_text_that_names_a_flag_would_be_seen() {
 fn no_text_of_the_library_names_a_flag() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let is_of_program = |path: &Path| {
-        let inside = path.strip_prefix(&src).unwrap();
-        ["cli", "app", "main.rs"].iter().any(|part| inside.starts_with(part))
-            || inside.components().any(|part| part.as_os_str().to_string_lossy().starts_with("tests"))
+        path.starts_with(&src)
+            || path.components().any(|part| part.as_os_str().to_string_lossy().starts_with("tests"))
     };
-    let files: Vec<PathBuf> = sources(&src).into_iter().filter(|path| !is_of_program(path)).collect();
+    let files: Vec<PathBuf> = all_sources().into_iter().filter(|path| !is_of_program(path)).collect();
     assert!(files.len() > 100);
     let found: Vec<String> = files
         .iter()
@@ -456,14 +196,6 @@ fn no_text_of_the_library_names_a_flag() {
         })
         .collect();
     assert!(found.is_empty(), "the program adds flags to what the library says: {found:#?}");
-}
-
-#[test]
-fn an_import_that_runs_up_would_be_seen() {
-    assert_eq!(imports("use crate::picture::Film; use crate::io; // and crate::cli"), ["picture", "io"]);
-    assert!(climbs_out("use super::super::io::write;", 1) && !climbs_out("use super::Film;", 1));
-    assert!(floor("picture") > floor("trace"));
-    assert_eq!(floor("main"), None);
 }
 
 /// Returns the forbidden names in a text of the editor's model: those of the window, and those of data that threads
@@ -508,9 +240,9 @@ fn differences_are_written_by_one_function_that_knows_no_negative_zero() {
         signs_of_their_own(r#"format!("{by:+.2} {:>+9.3} {x:.2} {{ a: b }}")"#),
         ["{by:+.2", "{:>+9.3"]
     );
-    for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src")) {
+    for path in all_sources() {
         let text = std::fs::read_to_string(&path).unwrap();
-        let is_home = path.ends_with("math/decimals.rs");
+        let is_home = path.ends_with("crates/math/src/decimals.rs");
         let found = signs_of_their_own(&text);
         assert!(is_home || found.is_empty(), "{}: {found:?}: use math::signed", path.display());
     }

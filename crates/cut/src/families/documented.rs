@@ -1,7 +1,7 @@
 //! Keeps docs/families.md current: the tables of all families whose facets a function makes, and the weights of their
 //! first cuts.
 //!
-//! `BRILLIANTEER_RECORD=1 cargo test --lib documented` writes the file.
+//! `BRILLIANTEER_RECORD=1 cargo test --release -p brillianteer-cut documented` writes the file.
 
 use super::range_sources::range_source;
 use super::tests::{Solid, made, on_random_cuts, stone};
@@ -15,7 +15,7 @@ const BEGINNING: &str = "\
 # Families of cuts
 
 A cut file gives the numbers of a family in a table with the family's key, such as `[oval]`. This page is generated from the
-tables in `src/cut/families`, and a test keeps it current. [Formats](formats.md#cut-files) describes the rest of a cut file
+tables in `crates/cut/src/families`, and a test keeps it current. [Formats](formats.md#cut-files) describes the rest of a cut file
 and `[round_brilliant]`.
 
 W is the [diameter](formats.md#diameter-length-and-width): of a round outline, that of the circle through its corners; of any

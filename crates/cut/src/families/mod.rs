@@ -1,4 +1,22 @@
 //! All families of cuts, and the search for the family of a cut.
+//!
+//! To add a family (`oval.rs` is the pattern):
+//!
+//! 1. Write its `Family` in a file here: key and name, a row for each number (`rows`, `step_rows` and
+//!    `brilliant_rows` have those that families share), the values of its first cut in the order of the rows,
+//!    `net`, which makes the facets, and `depth`, the height of the whole stone by a formula. A row reads its value
+//!    by its index in the list. Say at the head of the file where the usual ranges come from.
+//! 2. In `net`, use a kernel where one fits: `brilliant` (mains, stars and halves on a `Girdle` of any convex
+//!    curve), `steps` (rows parallel to an outline of straight sides), `chevrons`, `alternating`. Or add planes
+//!    through points to a `FacetNet`. Half of the width is 1, the length runs along y, z = 0 is the girdle's upper
+//!    edge. A family that is not convex, as `heart`, makes one half, which its mirror image closes.
+//! 3. Put it into `FAMILIES` and `GROUPS`, a cut of it with the citation of its numbers into `cuts/`, and that file
+//!    into `CUTS` of `crates/files/src/library.rs`. Panel, help, files, errors and lists read the rows.
+//! 4. The laws of `tests` and `facet_tests` run on every family. Where its numbers count something (mains, rows),
+//!    state there how many facets follow.
+//! 5. Record docs/families.md; `documented` says how.
+//!
+//! No proportion is named Length or Width: the panel has rows of these names for the size of stones.
 
 mod alternating;
 mod asscher;

@@ -12,6 +12,7 @@ use toml::Spanned;
 /// The most bodies of metal that a scene may have.
 const MOST_METALS: usize = 256;
 
+/// The range of a metal's scale, mm for a unit of its file.
 const SCALES: RangeInclusive<f64> = 1e-6..=1e6;
 
 /// A table `[[metal]]` of a scene file, as serde reads and writes it.

@@ -1,4 +1,6 @@
 //! The at most 256 colours of a frame of a GIF.
+//!
+//! color_quant fits them; quantette fits better, but brings 15 crates.
 
 use color_quant::NeuQuant;
 use std::cmp::Reverse;

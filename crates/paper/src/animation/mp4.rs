@@ -1,4 +1,7 @@
 //! Writes MP4 (ISO/IEC 14496-12) with AV1 (AV1 Codec ISO Media File Format Binding 1.2).
+//!
+//! The encoder is rav1e, which is kept up in Rust and without its assembly needs no nasm. It takes longer to build
+//! than all readers and writers of files together, so the feature `video` is no default.
 
 use super::frames::{FrameSink, Frames};
 use brillianteer_files::Sink;

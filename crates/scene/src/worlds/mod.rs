@@ -3,6 +3,10 @@
 //!
 //! z is up, and the middle of the photograph is at azimuth 0, which is +x. The photograph is a plain perspective whose
 //! film may be shifted upward, so that what is upright stays upright.
+//!
+//! To add a world, add a function from direction and footprint to radiance in a file here, a variant with its name
+//! in `NAMES`, its arms, its light in `lights.rs` beside this folder, and its mean radiance in the tests. What is
+//! finer than the footprint must fade into its mean.
 
 mod city;
 mod drawing;

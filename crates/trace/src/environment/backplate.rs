@@ -1,5 +1,5 @@
 //! The photograph behind the bodies, on a plane perpendicular to the axis to the eye. The twins of this module are
-//! `src/trace/packet/backplate.rs` and `photo_at` in `shaders/environment.wgsl`.
+//! `crates/trace/src/packet/backplate.rs` and `photo_at` in `shaders/environment.wgsl`.
 
 use crate::DispersedRay;
 use brillianteer_math::Basis;

@@ -1,4 +1,8 @@
 //! Divides the work of a strip of pixels into dispatches.
+//!
+//! The tiles of a dispatch come from everywhere in the strip, so that one over the stone is no heavier than one
+//! before it over the background. Each wavelength is summed alone and in order, so a picture is the same to the bit
+//! however its work is divided.
 
 use std::ops::Range;
 

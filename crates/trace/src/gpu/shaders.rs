@@ -1,4 +1,14 @@
 //! The shaders, which are put together as text and compiled when first used.
+//!
+//! `trace.wgsl` follows the chain of bounces. What it calls is in one of several files:
+//!
+//! - What a ray meets (`entry`, `next_facet`, `facet_normal`): `planes.wgsl` for stones of few planes,
+//!   `clusters.wgsl` for more, `triangles.wgsl`, and `implicit.wgsl` for glass shapes.
+//! - Where leaving light goes: `convex.wgsl` lets it go, `branching.wgsl` is for solids that it may enter again;
+//!   then `leave` takes it, in `scope.wgsl` into bands, in `light.wgsl` to another body or to the environment.
+//! - What metal does: nothing in `no_metal.wgsl`; `metal.wgsl` finds it, reflects light and thins out weak light.
+//!
+//! `light.wgsl` calls `go` at one place only, because compilers copy all that it calls to each place.
 
 use super::gpu_types;
 use super::limits::{

@@ -1,5 +1,5 @@
 //! The picture behind the bodies, for packets of rays in single precision. It is the twin of `Backplate::at` in
-//! `src/trace/environment/backplate.rs` and of `photo_at` in `shaders/environment.wgsl`.
+//! `crates/trace/src/environment/backplate.rs` and of `photo_at` in `shaders/environment.wgsl`.
 
 use super::lanes::{Lanes, MOST_LANES, Vectors};
 use crate::environment::{ALONG, Backplate, Environment};
@@ -116,7 +116,7 @@ impl<'a> PacketBackplate<'a> {
 
     /// Returns fans by which rays cover, to first order, the same stretches of the picture's plane as by their fans
     /// and shifts together. It is the twin of the function with the same name in
-    /// `src/trace/environment/backplate.rs`.
+    /// `crates/trace/src/environment/backplate.rs`.
     #[inline(always)]
     fn fan_onto_plane<S: Simd>(
         &self,

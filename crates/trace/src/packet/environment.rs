@@ -1,5 +1,5 @@
 //! Looks up the light around the bodies for many rays at once, in single precision. It is the twin of
-//! `Environment::radiance` in `src/trace/environment.rs` and of `shaders/environment.wgsl`.
+//! `Environment::radiance` in `crates/trace/src/environment.rs` and of `shaders/environment.wgsl`.
 
 use super::backplate::{PacketBackplate, by_channel};
 use super::lanes::{Lanes, Vectors};

@@ -1,5 +1,5 @@
 //! Snell's law, Fresnel's formulae and polarisation in lanes, in single precision. These are the twins of
-//! `src/optics` and of `shaders/optics.wgsl`, where the sources are named.
+//! `crates/optics/src` and of `shaders/optics.wgsl`, where the sources are named.
 
 use super::lanes::{Lanes, Mask, Vectors};
 use pulp::Simd;
