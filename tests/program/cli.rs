@@ -8,6 +8,7 @@ mod faults;
 mod helps;
 mod maps;
 mod meshes;
+mod newcomers;
 mod outputs;
 mod panes;
 mod pictures;

@@ -1,0 +1,18 @@
+//! What a user meets on the first day: names of files that tell pictures apart, commands that say what they wrote, sizes that
+//! nobody stated, and messages about files that are no designs.
+
+use super::desk::*;
+
+#[test]
+fn drawings_come_without_figures_unless_they_are_asked_for() {
+    let desk = Desk::new();
+    let names = |line: &str| {
+        let printed = desk.done(&format!("{line} --size 32"));
+        printed.lines().map(|line| line.trim_start_matches("out/").to_owned()).collect::<Vec<_>>()
+    };
+    let drawings = ["cube-profile.svg", "cube-profile.png", "cube-diagram.svg", "cube-diagram.png"];
+    assert_eq!(names("export cube.toml --views profile,diagram"), drawings);
+    assert_eq!(names("export cube.toml --views profile --format json"), ["cube-figures.json"]);
+    let lit = names("export cube.toml --views profile,aset --unresolved 0.1");
+    assert_eq!(lit.last().map(String::as_str), Some("cube-figures.json"));
+}
