@@ -1,7 +1,7 @@
 //! `materials`, `cuts`, `scenes`, `scopes`, `lights`: list the items that the program knows by name.
 
 use super::console::{json, print};
-use crate::io::assembly::Assembly;
+use crate::io::assembly::stone_count;
 use crate::io::library::{CUTS, SCENES, cut, scene};
 use crate::io::{Failure, cut_file, light_file, lighting, scene_file, scope_file};
 use crate::optics::{line, materials};
@@ -95,13 +95,7 @@ impl Scenes {
         let mut rows = vec![];
         for (name, text) in SCENES {
             let scene = scene_file::parse(text, name, None)?;
-            let title = scene.name.clone();
-            // A ring has to be made before the number of its stones is known.
-            let stones = match scene.ring {
-                Some(_) => Assembly::of(Path::new(name), scene)?.places.len(),
-                None => scene.stones.iter().map(|s| s.count).sum(),
-            };
-            rows.push((name, stones, title));
+            rows.push((name, stone_count(Path::new(name), &scene)?, scene.name));
         }
         if self.json {
             let entry = |(name, stones, title)| json!({ "name": name, "title": title, "stones": stones });
