@@ -16,3 +16,18 @@ fn drawings_come_without_figures_unless_they_are_asked_for() {
     let lit = names("export cube.toml --views profile,aset --unresolved 0.1");
     assert_eq!(lit.last().map(String::as_str), Some("cube-figures.json"));
 }
+
+#[test]
+fn a_file_of_prose_is_said_to_be_no_design_in_one_line() {
+    let desk = Desk::new();
+    desk.write("README.md", "# Title\n\nProse of a kind.\n\n[link](there)\n\n[section]\nkey = 1\n");
+    desk.write("notes", "Buy a stone; then cut it = done\n");
+    for file in ["README.md", "notes"] {
+        for command in ["info", "render", "measure"] {
+            let stderr = desk.refused(&format!("{command} {file}"), 1);
+            let is_one_line = stderr.trim_end().lines().count() == 1;
+            let begins = format!("error: {file}: this is not a design: designs as .toml, .asc");
+            assert!(is_one_line && stderr.starts_with(&begins), "{command}: {stderr}");
+        }
+    }
+}
