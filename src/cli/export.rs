@@ -53,6 +53,9 @@ pub struct ExportArguments {
     light: LightOptions,
     #[command(flatten)]
     specimen: SpecimenOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl ExportArguments {
@@ -85,7 +88,7 @@ impl ExportArguments {
     fn outputs(&self, file: &Path, pictures: &[(String, Picture)]) -> Outputs {
         Outputs {
             folder: self.out.clone(),
-            stem: stem(file),
+            stem: stem(file) + &self.told_apart,
             pictures: pictures.to_vec(),
             size: self.size,
             formats: self.formats(pictures),

@@ -69,6 +69,9 @@ pub struct RefractionImport {
     /// The width of the template, seen straight on, as a multiple of the picture's
     #[arg(long, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl RefractionTemplate {
@@ -111,7 +114,7 @@ impl RefractionImport {
         );
         let files = MapFiles {
             out: &self.out,
-            stem: &stem,
+            stem: &format!("{stem}{}", self.told_apart),
             kinds: &kinds,
             title: &stem,
             description: &description,

@@ -49,6 +49,9 @@ pub struct RefractionMaps {
     view: ViewOptions,
     #[command(flatten)]
     picture: PictureOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl RefractionMaps {
@@ -114,7 +117,7 @@ impl RefractionMaps {
         );
         let files = MapFiles {
             out: &self.out,
-            stem: &format!("{}{}", stem(file), viewpoint.suffix()),
+            stem: &format!("{}{}{}", stem(file), self.told_apart, viewpoint.suffix()),
             kinds: &kinds,
             title: &studio.assembly.name,
             description: &description,

@@ -29,6 +29,9 @@ pub struct Render {
     picture: PictureOptions,
     #[command(flatten)]
     finish: FinishOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 fn point(text: &str) -> Result<glam::DVec2, String> {
@@ -69,7 +72,7 @@ impl Render {
         let ending = self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {
             Some("png" | "exr") if !self.out.is_dir() => (self.out.clone(), true),
-            _ => (self.out.join(format!("{}{suffix}-render.png", stem(file))), false),
+            _ => (self.out.join(format!("{}{}{suffix}-render.png", stem(file), self.told_apart)), false),
         }
     }
 

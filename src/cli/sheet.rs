@@ -33,6 +33,9 @@ pub struct SheetArguments {
     json: bool,
     #[command(flatten)]
     specimen: SpecimenOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl SheetArguments {
@@ -51,7 +54,7 @@ impl SheetArguments {
                 return print(&if self.files.len() == 1 { json(&value) } else { value.to_string() });
             };
             let path = match is_folder {
-                true => self.out.join(format!("{}-sheet.{}", stem(file), format.ending())),
+                true => self.out.join(format!("{}{}-sheet.{}", stem(file), self.told_apart, format.ending())),
                 false => self.out.clone(),
             };
             write(&sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))?;

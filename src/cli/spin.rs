@@ -76,6 +76,9 @@ pub struct Spin {
     picture: PictureOptions,
     #[command(flatten)]
     finish: FinishOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 /// The output of an animation: its file, and the folder of its frames.
@@ -229,7 +232,7 @@ impl Spin {
             return SpinOutput { path: self.out.clone(), stills: None };
         }
         let scope = if scope.is_empty() { String::new() } else { format!("-{scope}") };
-        let name = format!("{}{}{scope}-spin", stem(&self.file), asked.suffix());
+        let name = format!("{}{}{}{scope}-spin", stem(&self.file), self.told_apart, asked.suffix());
         let path = self.out.join(format!("{name}.{}", format.ending()));
         SpinOutput { path, stills: Some(self.out.join(name)) }
     }

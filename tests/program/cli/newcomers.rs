@@ -4,6 +4,31 @@
 use super::desk::*;
 
 #[test]
+fn default_names_tell_apart_what_options_change() {
+    let desk = Desk::new();
+    desk.write("mine.toml", desk.done("lights ring"));
+    let quick = "--size 16 --samples 1 --wavelengths 1";
+    for (options, name) in [
+        ("", "cube-render.png"),
+        ("--tone neutral", "cube-render.png"),
+        ("--material ruby", "cube-ruby-render.png"),
+        ("--light ring", "cube-ring-render.png"),
+        ("--light ./mine.toml --turn 30 --upright", "cube-mine-turn-30-upright-render.png"),
+        ("--stone 2mm --tilt 5", "cube-2mm-tilt-5-render.png"),
+        ("--background #404850-#101215 --exposure -0.5", "cube-exposure--0.5-404850-101215-render.png"),
+    ] {
+        let printed = desk.done(&format!("render cube.toml {quick} {options}"));
+        assert_eq!(printed, format!("out/{name}\n"), "{options}");
+    }
+    let printed = desk.done("export cube.toml --views aset --format png --size 16 --index 1.7");
+    assert_eq!(printed, "out/cube-index-1.7-aset.png\nout/cube-index-1.7-aset-strongest.png\n");
+    let map =
+        desk.done("refraction-map cube.toml --size 16 --samples 1 --wavelengths 1 --format tiled --span 3");
+    assert!(map.starts_with("out/cube-span-3-refraction"), "{map}");
+    assert_eq!(desk.done("sheet tolkowsky --left-handed"), "out/tolkowsky-left-handed-sheet.pdf\n");
+}
+
+#[test]
 fn drawings_come_without_figures_unless_they_are_asked_for() {
     let desk = Desk::new();
     let names = |line: &str| {

@@ -49,8 +49,8 @@ fn gif(path: &Path) -> (Vec<Vec<u8>>, u16) {
 #[test]
 fn frames_in_a_scope_are_the_pictures_that_export_writes() {
     let desk = Desk::new();
-    assert_eq!(desk.done(ROCKING).trim(), "out/tolkowsky-aset-spin.png");
-    let (size, frames, description) = apng(&desk.at("out/tolkowsky-aset-spin.png"));
+    assert_eq!(desk.done(ROCKING).trim(), "out/tolkowsky-motion-rock-swing-20-aset-spin.png");
+    let (size, frames, description) = apng(&desk.at("out/tolkowsky-motion-rock-swing-20-aset-spin.png"));
     assert_eq!((size, frames.len()), ([64, 64], 8));
     let expected = "Tolkowsky 1919: aset, rocking 20 degrees to and fro toward 0, table side, 8 frames; table side; index 2.41";
     assert!(description.starts_with(expected), "{description}");
