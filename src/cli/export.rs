@@ -32,7 +32,7 @@ pub struct ExportArguments {
     #[arg(long, value_enum, value_delimiter = ',')]
     format: Vec<OutputFormat>,
     /// Folder to write to; `-` is standard output, for a single file; of the two pictures in a scope it gets energy
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Draw a caption under pictures in scopes: what each colour means, view, error, stone and program
     #[arg(long)]

@@ -38,7 +38,7 @@ pub struct LiquidGlass {
     #[arg(long, value_name = "WHAT")]
     background: String,
     /// Folder to write to, or the .png itself; without --compare `-` is standard output
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Pixels of the picture: a number for a square, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "960x600", value_parser = film_size)]

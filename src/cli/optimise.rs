@@ -47,7 +47,7 @@ pub struct OptimiseArguments {
     #[command(flatten)]
     specimen: SpecimenOptions,
     /// The file to write the design to; its ending names the format
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Draw how the best grew, as .svg, .png or .pdf
     #[arg(long, value_name = "FILE")]

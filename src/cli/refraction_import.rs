@@ -57,7 +57,7 @@ pub struct RefractionImport {
     #[arg(long, value_enum)]
     coding: Option<TemplateCoding>,
     /// Folder to write to
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Kinds of file to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]

@@ -27,7 +27,7 @@ pub struct RefractionMaps {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Folder to write to
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Kinds of file to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]

@@ -18,7 +18,7 @@ pub struct Render {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// File (.png or .exr) or folder to write to; `-` is standard output, as PNG
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Name the facet at X,Y, in pixels from the upper left corner, instead of drawing a picture
     #[arg(long, value_name = "X,Y", value_parser = point)]

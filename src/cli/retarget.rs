@@ -35,7 +35,7 @@ pub struct RetargetArguments {
     #[arg(long, value_enum, default_value_t = RetargetSide::Pavilion)]
     side: RetargetSide,
     /// The file to write the new design to; its ending names the format
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Measure no light
     #[arg(long)]

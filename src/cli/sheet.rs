@@ -17,7 +17,7 @@ pub struct SheetArguments {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// A file, whose ending names the format, or a folder to write to; `-` is standard output and needs --format
-    #[arg(long, default_value = "out", value_name = "FILE|FOLDER")]
+    #[arg(short, long, default_value = "out", value_name = "FILE|FOLDER")]
     out: PathBuf,
     /// The format to write, whatever the ending [default: that of the ending, else pdf]
     #[arg(long, value_enum)]

@@ -46,7 +46,7 @@ pub struct Spin {
     file: PathBuf,
     /// File (.png, .gif or .mp4) or folder to write to; into a folder go the animation NAME-spin.png, and its frames in
     /// NAME-spin/
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// The motion of the stone
     #[arg(long, value_enum, default_value_t = StoneMotion::Turn)]

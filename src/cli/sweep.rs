@@ -43,7 +43,7 @@ pub struct SweepArguments {
     #[arg(long = "of", value_name = "MEASURE")]
     measures: Vec<MeasureName>,
     /// The file to write: .csv or .jsonl, row by row, or .parquet in the end [default: CSV on standard output]
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Continue the file of --out, where the same command was stopped
     #[arg(long, requires = "out")]

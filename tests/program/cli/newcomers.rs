@@ -29,6 +29,26 @@ fn default_names_tell_apart_what_options_change() {
 }
 
 #[test]
+fn every_command_that_takes_out_takes_its_short_form() {
+    let desk = Desk::new();
+    let help = desk.done("--help");
+    let commands = help.lines().skip_while(|line| !line.starts_with("Commands:")).skip(1);
+    let commands: Vec<&str> = commands
+        .take_while(|line| !line.is_empty())
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    let mut with_out = 0;
+    for command in commands.into_iter().filter(|command| *command != "help") {
+        let help = desk.done(&format!("{command} --help"));
+        let option =
+            help.lines().map(str::trim_start).find(|line| line.starts_with('-') && line.contains("--out "));
+        with_out += usize::from(option.is_some());
+        assert!(option.is_none_or(|line| line.starts_with("-o, --out ")), "{command}: {option:?}");
+    }
+    assert!(with_out >= 10, "{with_out}");
+}
+
+#[test]
 fn drawings_come_without_figures_unless_they_are_asked_for() {
     let desk = Desk::new();
     let names = |line: &str| {
