@@ -1,7 +1,7 @@
 //! `convert`: writes a stone's design in another format.
 
 use super::comments;
-use super::console::say;
+use super::console::{say, written};
 use super::meets::KnownMeets;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
@@ -62,7 +62,7 @@ impl Convert {
         for what in lost {
             say(&format!("note: {}: {what}", self.output.display()));
         }
-        Ok(())
+        written(&self.output)
     }
 }
 
@@ -83,7 +83,7 @@ impl Convert {
         write(&self.output, |file| {
             file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&self.output, e))
         })?;
-        Ok(())
+        written(&self.output)
     }
 }
 

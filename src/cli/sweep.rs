@@ -1,6 +1,6 @@
 //! `sweep`: writes the measures of designs over a grid of their proportions, angles, materials and views.
 
-use super::console::say;
+use super::console::{say, written};
 use super::measure_taking::MeasureTaking;
 use super::options::{pupil_diameter, rock_angle};
 use super::progress::WorkProgress;
@@ -164,6 +164,7 @@ impl SweepArguments {
         // A plot that cannot be drawn must not lose a row of the table.
         if let Some(table) = outputs.table.take() {
             table.finish()?;
+            self.out.iter().try_for_each(|out| written(out))?;
         }
         match &outputs.plot {
             Some(plot) if outputs.failed < files.len() * points => plot.write(&stem(&files[0]))?,

@@ -29,6 +29,23 @@ fn default_names_tell_apart_what_options_change() {
 }
 
 #[test]
+fn commands_print_the_names_of_the_files_that_they_write() {
+    let desk = Desk::new();
+    for (line, file) in [
+        ("convert cube.toml a.toml", "a.toml"),
+        ("sweep cube.toml --over index=1.5,1.6 --of leakage --unresolved 0.2 -o a.csv", "a.csv"),
+        ("retarget tolkowsky --material sapphire --rule critical-angle --no-light -o b.toml", "b.toml"),
+        ("sheet tolkowsky -o c.svg", "c.svg"),
+    ] {
+        let printed = desk.done(line);
+        assert_eq!(printed.lines().last(), Some(file), "{line}: {printed}");
+        assert!(desk.at(file).is_file());
+    }
+    let json = "retarget tolkowsky --material sapphire --rule critical-angle --no-light --json -o d.toml";
+    assert!(desk.json(json).is_object() && desk.at("d.toml").is_file());
+}
+
+#[test]
 fn every_command_that_takes_out_takes_its_short_form() {
     let desk = Desk::new();
     let help = desk.done("--help");
