@@ -86,17 +86,19 @@ impl LoadedSpecimen {
     }
 }
 
-/// Prints which options read a file in another way.
+/// Prints which options read a file in another way, each of them once in a run, with the first file that it is of use for.
 pub fn note_readings(other: &OtherReadings) {
-    let path = &other.path;
-    if other.of_bodies {
-        say(&format!("note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"));
-    }
-    if other.of_symmetry {
-        say(&format!("note: {path}: --as-found keeps the facets as found"));
-    }
-    if other.of_shape {
-        say(&format!("note: {path}: --as and --up choose how it is read"));
+    let OtherReadings { path, of_bodies, of_shape, of_symmetry } = other;
+    static SAID: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+    let is_new = |what| SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(what);
+    for (applies, what) in [
+        (*of_bodies, "--part NUMBER, --part NAME or --part all chooses what is read of it"),
+        (*of_symmetry, "--as-found keeps the facets as found"),
+        (*of_shape, "--as and --up choose how it is read"),
+    ] {
+        if applies && is_new(what) {
+            say(&format!("note: {path}: {what}"));
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_pri
 use crate::io::cutters::{self, Gear, TierPiece};
 use crate::io::file_error::Fault;
 use crate::io::numbers::Token;
-use crate::math::Plane;
+use crate::math::{Plane, at_most};
 use glam::DVec3;
 use roxmltree::Node;
 
@@ -262,14 +262,14 @@ impl Apart {
         let mut differences = Vec::new();
         if self.corners > TOLD_APART {
             differences.push(format!(
-                "its corners differ from its depth by up to {:.1e}; the depth is used",
-                self.corners
+                "its corners differ from its depth by up to {}; the depth is used",
+                at_most(self.corners)
             ));
         }
         if self.angle > TOLD_APART {
             differences.push(format!(
-                "its normals differ from its angle by up to {:.1e}°; the normals are used",
-                self.angle
+                "its normals differ from its angle by up to {}°; the normals are used",
+                at_most(self.angle)
             ));
         }
         (!differences.is_empty()).then(|| format!("tier '{name:.40}': {}", differences.join("; ")))

@@ -93,3 +93,17 @@ fn a_file_of_prose_is_said_to_be_no_design_in_one_line() {
         }
     }
 }
+
+#[test]
+fn notes_on_meshes_have_plain_numbers_and_say_each_option_once() {
+    let desk = Desk::new();
+    desk.run("convert tolkowsky a.stl");
+    desk.run("convert modern-ideal b.stl");
+    let (code, _, stderr) = desk.run("info a.stl b.stl");
+    let is_exponent = |word: &str| word.contains("e-") && word.parse::<f64>().is_ok();
+    assert!(code == 0 && stderr.contains("girdle radii"), "{stderr}");
+    assert!(!stderr.split_whitespace().any(is_exponent), "{stderr}");
+    for option in ["--as-found", "--as and --up", "--part NUMBER"] {
+        assert!(stderr.matches(option).count() <= 1, "{stderr}");
+    }
+}
