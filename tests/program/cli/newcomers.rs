@@ -3,6 +3,12 @@
 
 use super::desk::*;
 
+/// A stone of GemCad with two tiers of the name G.
+const TWO_GIRDLES: &str = "GemCad 5.0\ng 96 0.0\ny 8 y\nI 1.54\nH two tiers of one name\n\
+    a -45.0 0.7 96 n P 12 24 36 48 60 72 84 G pavilion\na 90.0 1.0 96 n G 12 24 36 48 60 72 84 G girdle\n\
+    a -90.0 1.0 6 n G 18 30 42 54 66 78 90 G girdle\na 35.0 0.75 96 n C 12 24 36 48 60 72 84 G crown\n\
+    a 0.0 0.3 96 n T G table\n";
+
 #[test]
 fn default_names_tell_apart_what_options_change() {
     let desk = Desk::new();
@@ -77,6 +83,26 @@ fn drawings_come_without_figures_unless_they_are_asked_for() {
     assert_eq!(names("export cube.toml --views profile --format json"), ["cube-figures.json"]);
     let lit = names("export cube.toml --views profile,aset --unresolved 0.1");
     assert_eq!(lit.last().map(String::as_str), Some("cube-figures.json"));
+}
+
+#[test]
+fn a_file_without_a_size_is_said_to_have_none_unless_one_is_given() {
+    let desk = Desk::new();
+    desk.write("two.asc", TWO_GIRDLES);
+    let said = "note: two.asc: the file states no size; the stone is taken to be 6.5 mm across\n";
+    for command in ["info", "measure --unresolved 0.2", "sheet --json", "render --size 16 --samples 1"] {
+        let (code, _, stderr) = desk.run(&format!("{command} two.asc"));
+        assert!(code == 0 && stderr.contains(said), "{command}: {stderr}");
+        let (code, _, stderr) = desk.run(&format!("{command} two.asc --stone 7mm"));
+        assert!(code == 0 && !stderr.contains("6.5 mm"), "{command}: {stderr}");
+    }
+    for format in ["gem", "gcs"] {
+        desk.run(&format!("convert two.asc b.{format}"));
+        let (_, _, stderr) = desk.run(&format!("info b.{format}"));
+        assert!(stderr.contains(": the file states no size; "), "{format}: {stderr}");
+    }
+    desk.done("convert two.asc b.toml --stone 8mm");
+    assert_eq!(desk.run("info b.toml").2, "");
 }
 
 #[test]
