@@ -6,13 +6,14 @@ use super::optimise_text::{json_value, text};
 use super::options::number;
 use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
-use super::specimen::{lacks_fire, no_fire, note_no_fire};
+use super::specimen::{lacks_fire, no_fire, note_namesakes, note_no_fire};
 use super::specimen_options::SpecimenOptions;
 use crate::cut::Design;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
 use crate::io::{Failure, check_writable, goal_file};
 use crate::measure::{MeasureName, NoMeasure};
+use crate::render::SweepKey;
 use crate::scene::Specimen;
 use crate::search::{
     DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
@@ -168,6 +169,11 @@ impl OptimiseArguments {
             return Err(Failure::Usage(format!("{path}: nothing to search for: {why}")));
         }
         note_no_fire(&specimen.material, own.map(|measure| measure.of), where_to);
+        note_namesakes(
+            &path,
+            &specimen.design.cut,
+            &goal.vary.keys().map(|key| SweepKey::of(key)).collect::<Vec<_>>(),
+        );
         note_held(&path, &search);
         let outcome = self.searched(&search, &path).map_err(refused)?;
         if outcome.was_stopped {

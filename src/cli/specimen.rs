@@ -2,13 +2,14 @@
 
 use super::console::say;
 use crate::cut::from_mesh::FacetError;
-use crate::cut::{MaterialError, MaterialRef, Size};
+use crate::cut::{Cut, MaterialError, MaterialRef, Size};
 use crate::io::built_design::{BuiltDesign, OtherReadings};
 use crate::io::mesh::MeshBody;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, is_standard};
 use crate::measure::MeasureName;
 use crate::optics::{Dispersion, Material};
+use crate::render::SweepKey;
 use crate::scene::{self, Stone};
 use std::collections::BTreeSet;
 use std::ops::Deref;
@@ -121,6 +122,21 @@ pub fn note_colour(material: &Material) {
             "note: the colour of {} is illustrative: chosen to look like the gem's, and not measured",
             material.name
         ));
+    }
+}
+
+/// Prints a note for each key of a tier whose name several tiers of a design have: which of them the key means, and how the
+/// others are called.
+pub fn note_namesakes<'k>(path: &str, cut: &Cut, keys: impl IntoIterator<Item = &'k SweepKey>) {
+    for key in keys {
+        let (SweepKey::Tier(name) | SweepKey::Distance(name)) = key else { continue };
+        let others = cut.namesakes(name);
+        if !others.is_empty() {
+            let (count, others) = (others.len() + 1, others.join(", "));
+            say(&format!(
+                "note: {path}: {count} tiers are called {name}; {key} is the first of them, and the others are {others}"
+            ));
+        }
     }
 }
 

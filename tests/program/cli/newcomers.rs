@@ -106,6 +106,30 @@ fn a_file_without_a_size_is_said_to_have_none_unless_one_is_given() {
 }
 
 #[test]
+fn tiers_of_one_name_are_listed_by_the_names_that_keys_take() {
+    let desk = Desk::new();
+    desk.write("two.asc", TWO_GIRDLES);
+    let rows = desk.json("info two.asc --json")["measured"]["tiers"].clone();
+    let rows: Vec<(&str, u64)> = list(&rows)
+        .iter()
+        .map(|row| (row["name"].as_str().unwrap(), row["facets"].as_u64().unwrap()))
+        .collect();
+    assert_eq!(rows, [("P", 8), ("G", 8), ("G#2", 8), ("C", 8), ("T", 1)]);
+    assert!(desk.done("info two.asc").contains("\n  G#2  "));
+    let quick = "--of leakage --unresolved 0.2";
+    let said =
+        "note: two.asc: 2 tiers are called G; distance:G is the first of them, and the others are G#2\n";
+    let (code, _, stderr) = desk.run(&format!("sweep two.asc --over distance:G=1,1.01 {quick}"));
+    assert!(code == 0 && stderr.contains(said), "{stderr}");
+    let (code, _, stderr) = desk.run(&format!("gradient two.asc --by distance:G {quick}"));
+    assert!(code == 0 && stderr.contains(said), "{stderr}");
+    for key in ["distance:G#2", "distance:C"] {
+        let (code, _, stderr) = desk.run(&format!("sweep two.asc --over {key}=1,1.01 {quick}"));
+        assert!(code == 0 && !stderr.contains("are called"), "{key}: {stderr}");
+    }
+}
+
+#[test]
 fn a_file_of_prose_is_said_to_be_no_design_in_one_line() {
     let desk = Desk::new();
     desk.write("README.md", "# Title\n\nProse of a kind.\n\n[link](there)\n\n[section]\nkey = 1\n");
