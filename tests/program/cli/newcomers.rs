@@ -157,3 +157,14 @@ fn notes_on_meshes_have_plain_numbers_and_say_each_option_once() {
         assert!(stderr.matches(option).count() <= 1, "{stderr}");
     }
 }
+
+#[test]
+fn a_material_by_its_index_is_titled_once() {
+    let desk = Desk::new();
+    for kind in ["", "--measures", "--hearts"] {
+        let printed = desk.done(&format!("measure tolkowsky --material 1.54 --unresolved 0.2 {kind}"));
+        let title = printed.lines().next().unwrap();
+        assert_eq!(title.matches("1.54").count(), 1, "{title}");
+        assert!(title.contains(", index 1.5400, "), "{title}");
+    }
+}
