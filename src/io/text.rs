@@ -84,9 +84,9 @@ pub(super) fn line_after(text: &[u8]) -> usize {
 
 /// Returns the known name that is most like an unknown one, if a few slips of typing make the one from the other.
 pub(crate) fn nearest<'k>(asked: &str, known: &[&'k str]) -> Option<&'k str> {
-    // A slip in every third letter is still a slip; with more, it is another word.
+    // One slip in three letters is still a slip; with more, it is another word.
     let letters = asked.chars().count();
-    let most = letters.div_ceil(3).min(3);
+    let most = (letters / 3).min(3);
     let slips = |name: &&str| strsim::damerau_levenshtein(asked, name);
     // Names of very different lengths are not compared, since the unknown name may be as long as a file.
     let alike = known.iter().copied().filter(|name| name.chars().count().abs_diff(letters) <= most);
@@ -120,9 +120,12 @@ mod tests {
     fn the_nearest_name_is_one_that_a_few_slips_make_of_what_was_asked() {
         let known = ["row", "ring", "parcel", "round_brilliant"];
         let pairs = [("rig", Some("ring")), ("raw", Some("row")), ("prcael", Some("parcel"))];
-        for (asked, near) in
-            pairs.into_iter().chain([("round_brlint", Some("round_brilliant")), ("pin", None)])
-        {
+        for (asked, near) in pairs.into_iter().chain([
+            ("round_brlint", Some("round_brilliant")),
+            ("pin", None),
+            ("ro", None),
+            ("rain", None),
+        ]) {
             assert_eq!(nearest(asked, &known), near, "{asked}");
         }
         assert_eq!((nearest("round", &known), nearest("", &known), nearest("row", &[])), (None, None, None));

@@ -308,7 +308,7 @@ fn unknown(name: &str) -> UnknownMaterial {
     let mut near: Vec<(usize, &str)> =
         materials().iter().map(|m| (strsim::levenshtein(&asked, &key(&m.name)), m.name.as_str())).collect();
     // Up to one slip in three letters is taken for a misspelling; with more slips, the text is another word.
-    near.retain(|&(slips, _)| slips <= asked.chars().count().div_ceil(3));
+    near.retain(|&(slips, _)| slips <= (asked.chars().count() / 3).min(3));
     near.sort_by_key(|&(slips, _)| slips);
     UnknownMaterial { name: name.to_owned(), of_kind, near: near.into_iter().map(|(_, name)| name).collect() }
 }
