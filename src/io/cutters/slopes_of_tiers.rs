@@ -7,6 +7,7 @@ use crate::measure::{MeasureDerivatives, MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepKey, with_numbers};
 use crate::scene::{Medium, Specimen, Stone, View, Viewpoint};
 use crate::trace::beam::{BeamOptions, Beams, trace_bounces};
+use crate::trace::unwatched;
 
 /// The number of reflections through which all stones of a comparison are followed, so that neighbours have the same
 /// beams.
@@ -60,7 +61,7 @@ fn traced(design: &Design) -> Traced {
 fn sums(of: &Traced, settings: &MeasureSettings) -> Vec<MeasureDerivatives> {
     let name = |name: &&str| {
         let name: MeasureName = name.parse().unwrap();
-        name.derivatives(&of.beams, &of.stone.polytope, settings).unwrap()
+        name.derivatives(&of.beams, &of.stone.polytope, settings, &unwatched).unwrap().unwrap()
     };
     NAMES.iter().map(name).collect()
 }
