@@ -109,7 +109,11 @@ mod tests {
         run(&["shallow", "--out", &path("b.bin"), "--format", "pdf"]).unwrap();
         run(&["shallow", "--json"]).unwrap();
         let is_there = |name: &str| Path::new(&path(name)).is_file();
-        assert!(["a.svg", "tolkowsky-sheet.pdf", "shallow-sheet.pdf", "b.bin"].into_iter().all(is_there));
+        assert!(
+            ["a.svg", "tolkowsky-left-handed-sheet.pdf", "shallow-left-handed-sheet.pdf", "b.bin"]
+                .into_iter()
+                .all(is_there)
+        );
         assert!(std::fs::read_to_string(path("a.svg")).unwrap().contains("width=\"215.9mm\""));
         assert!(std::fs::read(path("b.bin")).unwrap().starts_with(b"%PDF-"));
         for (options, said) in [

@@ -5,7 +5,7 @@ use crate::cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_pri
 use crate::io::cutters::{self, Gear, TierPiece};
 use crate::io::file_error::Fault;
 use crate::io::numbers::Token;
-use crate::math::{Plane, at_most};
+use crate::math::{Plane, rounded};
 use glam::DVec3;
 use roxmltree::Node;
 
@@ -263,13 +263,13 @@ impl Apart {
         if self.corners > TOLD_APART {
             differences.push(format!(
                 "its corners differ from its depth by up to {}; the depth is used",
-                at_most(self.corners)
+                rounded(self.corners, 6)
             ));
         }
         if self.angle > TOLD_APART {
             differences.push(format!(
                 "its normals differ from its angle by up to {}°; the normals are used",
-                at_most(self.angle)
+                rounded(self.angle, 6)
             ));
         }
         (!differences.is_empty()).then(|| format!("tier '{name:.40}': {}", differences.join("; ")))
