@@ -43,6 +43,9 @@ pub struct Editor {
     state_file: Option<StateFile>,
     /// The painter of the window: the graphics card or the processor.
     pub(super) painted_by: PaintedBy,
+    /// True until the file with which the editor was opened has been read; nobody asked for the design that the model holds
+    /// until then.
+    pub(super) is_starting: bool,
 }
 
 /// The key under which the workspace is kept between starts.
@@ -87,13 +90,17 @@ impl Editor {
             title: String::new(),
             state_file: setup.state_file,
             painted_by: setup.painted_by,
+            is_starting: false,
             model,
         };
         let is_there = |path: &PathBuf| path.exists();
         let last = editor.outside.last().filter(|found| found.path.as_ref().is_none_or(is_there));
         let last_file = editor.model.workspace.last.clone().filter(is_there);
         match (setup.file, last, last_file) {
-            (Some(path), ..) => editor.act(first(path, setup.mesh)),
+            (Some(path), ..) => {
+                editor.act(first(path, setup.mesh));
+                editor.is_starting = true;
+            }
             (None, Some(found), _) => editor.act(FileAction::Restore(Box::new(found))),
             (None, None, Some(path)) => editor.act(first(path, setup.mesh)),
             (None, None, None) => {}
@@ -234,6 +241,29 @@ impl Editor {
         }
     }
 
+    /// Draws the panels and the views of the design, or the file that is read in their place; returns the views in sight.
+    fn show_design(&mut self, ui: &mut Ui) -> Vec<Seen> {
+        let is_anew = |opening: &&Opening| opening.request.purpose == OpeningPurpose::Anew;
+        let first = self.model.session.awaited.opening.iter().find(is_anew);
+        self.is_starting &= first.is_some();
+        if let Some(first) = first.filter(|_| self.is_starting) {
+            stage::show_reading(&first.request.path, ui);
+            return vec![];
+        }
+        if !self.model.workspace.hides_panels && !self.model.is_at_bench() {
+            side_panels::show(&self.model, &mut self.actions, ui);
+            self.run();
+        }
+        tier_table::show(&self.model, &mut self.actions, ui);
+        audit_panel::show(&self.model, &mut self.actions, ui);
+        self.run();
+        if self.model.is_at_bench() {
+            bench_mode::show(&self.model, &mut self.actions, ui);
+            return vec![];
+        }
+        stage::show(&self.model, &mut self.views, &mut self.actions, ui)
+    }
+
     /// Returns whether all pictures and figures have their final quality and no task is running.
     pub(super) fn is_idle(&self) -> bool {
         let session = &self.model.session;
@@ -269,19 +299,7 @@ impl Editor {
         let painters = (self.studio.device_name(), self.painted_by);
         menus::status(&self.model.session, &state, painters, ui);
         self.run();
-        if !self.model.workspace.hides_panels && !self.model.is_at_bench() {
-            side_panels::show(&self.model, &mut self.actions, ui);
-            self.run();
-        }
-        tier_table::show(&self.model, &mut self.actions, ui);
-        audit_panel::show(&self.model, &mut self.actions, ui);
-        self.run();
-        let seen = if self.model.is_at_bench() {
-            bench_mode::show(&self.model, &mut self.actions, ui);
-            vec![]
-        } else {
-            stage::show(&self.model, &mut self.views, &mut self.actions, ui)
-        };
+        let seen = self.show_design(ui);
         self.run();
         light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
         map_window::show(&self.model, &mut self.actions, &ctx);

@@ -2,7 +2,7 @@
 
 use super::choice::{DESIGN_FORMATS, one_of};
 use super::comments;
-use super::console::say;
+use super::console::{say, written};
 use super::meets::KnownMeets;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
@@ -64,7 +64,7 @@ impl Convert {
         for what in lost {
             say(&format!("note: {}: {what}", self.output.display()));
         }
-        Ok(())
+        written(&self.output)
     }
 }
 
@@ -85,7 +85,7 @@ impl Convert {
         write(&self.output, |file| {
             file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&self.output, e))
         })?;
-        Ok(())
+        written(&self.output)
     }
 }
 

@@ -30,11 +30,12 @@ pub struct ExportArguments {
     /// Pixels along each side
     #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=i64::from(MOST_PIXELS)))]
     size: u32,
-    /// Kinds of file to write, separated by commas
-    #[arg(long, value_parser = one_of(&OUTPUT_FORMATS), value_delimiter = ',', default_values = ["png", "svg", "json"])]
+    /// Kinds of file to write, separated by commas [default: png and svg, and json where a picture in a scope is among the
+    /// pictures]
+    #[arg(long, value_parser = one_of(&OUTPUT_FORMATS), value_delimiter = ',')]
     format: Vec<OutputFormat>,
     /// Folder to write to; `-` is standard output, for a single file; of the two pictures in a scope it gets energy
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Draw a caption under pictures in scopes: what each colour means, view, error, stone and program
     #[arg(long)]
@@ -55,6 +56,9 @@ pub struct ExportArguments {
     light: LightOptions,
     #[command(flatten)]
     specimen: SpecimenOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl ExportArguments {
@@ -87,16 +91,27 @@ impl ExportArguments {
     fn outputs(&self, file: &Path, pictures: &[(String, Picture)]) -> Outputs {
         Outputs {
             folder: self.out.clone(),
-            stem: stem(file),
+            stem: stem(file) + &self.told_apart,
             pictures: pictures.to_vec(),
             size: self.size,
-            formats: self.format.clone(),
+            formats: self.formats(pictures),
             caption: self.caption,
             mark_audit: self.mark_audit,
             // Standard output takes a single file: the picture of energy.
             strongest: !is_standard(&self.out),
             timing: self.timing,
         }
+    }
+
+    /// Returns the kinds of file. The figures are those of light, so drawings alone come without them unless they are asked
+    /// for.
+    fn formats(&self, pictures: &[(String, Picture)]) -> Vec<OutputFormat> {
+        if !self.format.is_empty() {
+            return self.format.clone();
+        }
+        let is_lit = pictures.iter().any(|(_, picture)| matches!(picture, Picture::Scoped(_)));
+        let figures = is_lit.then_some(OutputFormat::Json);
+        [OutputFormat::Png, OutputFormat::Svg].into_iter().chain(figures).collect()
     }
 
     fn pictures(&self) -> Result<Vec<(String, Picture)>, Failure> {

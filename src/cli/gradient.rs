@@ -3,6 +3,7 @@
 use super::console::{json, print, say};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
+use super::specimen::note_namesakes;
 use brillianteer_base::Failure;
 use brillianteer_cut::{Cut, ScaledSide, Unit};
 use brillianteer_math::signed;
@@ -51,6 +52,9 @@ impl GradientArguments {
             false => self.by.iter().map(|name| SweepKey::of(name)).collect(),
         };
         let file = self.file.display().to_string();
+        if !self.by.is_empty() {
+            note_namesakes(&file, &sweep.design.cut, &keys);
+        }
         let found = {
             let progress = WorkProgress::new(&format!("differentiating {file}"));
             sweep.gradient(&keys, &measures, &progress.watch())

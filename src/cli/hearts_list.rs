@@ -12,11 +12,10 @@ const NOT_SHOWN: f64 = 5e-4;
 pub fn table_of_hearts(report: &HeartsReport) -> String {
     let HeartsReport { viewing, patterns, deviations } = report;
     let mut text = format!(
-        "{}: {}, {}, index {:.4}, viewer with a camera of {}° and a ring of {}° from the axis\n",
+        "{}: {}, {}, viewer with a camera of {}° and a ring of {}° from the axis\n",
         viewing.file,
         viewing.specimen.design.name,
-        viewing.specimen.material.name,
-        viewing.medium.index,
+        viewing.specimen.material.with_index(viewing.medium.index),
         patterns.camera_deg,
         patterns.ring_deg,
     );

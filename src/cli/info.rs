@@ -269,7 +269,7 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     }
     let Ok(stone) = specimen.stone() else { return Ok(value) };
     let polytope = &stone.polytope;
-    value["measured"] = json!(ProportionReport::of(polytope, stone.names()));
+    value["measured"] = json!(ProportionReport::of_cut(&specimen.design.cut, polytope, stone.names()));
     value["surface_area"] = json!(polytope.surface_area());
     value["silhouette_area"] = json!(polytope.silhouette_area(glam::DVec3::Z));
     value["edges"] = json!(polytope.edge_count());
@@ -357,7 +357,7 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
         return text;
     };
     let polytope = &stone.polytope;
-    let report = ProportionReport::of(polytope, stone.names());
+    let report = ProportionReport::of_cut(&specimen.design.cut, polytope, stone.names());
     if specimen.design.cut.brilliant().is_none() {
         let is_given = |key: &str| value["given"].get(key).is_some();
         proportions(&report, is_given, &mut line);

@@ -41,7 +41,7 @@ pub struct LiquidGlass {
     #[arg(long, value_name = "WHAT")]
     background: String,
     /// Folder to write to, or the .png itself; without --compare `-` is standard output
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Pixels of the picture: a number for a square, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "960x600", value_parser = film_size)]
@@ -96,6 +96,9 @@ pub struct LiquidGlass {
     /// Samples of each pixel in the comparison, 1 to 1024
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1024))]
     samples: u32,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 /// The size of a pane and the place of its upper left corner, in pixels. Without a place the pane is in the middle of the
@@ -165,9 +168,9 @@ impl LiquidGlass {
         let description = self.description(&pane_asked);
         let draw = if self.alone { layer } else { pane };
         let drawn = draw(&pane_asked, &background, 1);
-        self.write("liquid-glass", &drawn, &description)?;
+        self.write("", &drawn, &description)?;
         if self.exr {
-            let path = self.out.join("liquid-glass.exr");
+            let path = self.out.join(format!("liquid-glass{}.exr", self.told_apart));
             write_linear_exr(&path, &mut &drawn, &description)?;
             written(&path)?;
         }
@@ -196,9 +199,9 @@ impl LiquidGlass {
             "{description}; traced by rays, gap {gap}, {WAVELENGTHS} wavelengths in {} samples",
             self.samples
         );
-        self.write("liquid-glass-traced", &traced, &description)?;
+        self.write("-traced", &traced, &description)?;
         let both = beside(&pane(&pane_asked, &background, 1), &traced);
-        self.write("liquid-glass-both", &both, &format!("left drawn, right traced; {description}"))?;
+        self.write("-both", &both, &format!("left drawn, right traced; {description}"))?;
         cost.map_or(Ok(()), |cost| print(&figures(&cost)))
     }
 
@@ -262,13 +265,13 @@ impl LiquidGlass {
         )
     }
 
-    fn write(&self, stem: &str, picture: &Linear, description: &str) -> Result<(), Failure> {
+    fn write(&self, kind: &str, picture: &Linear, description: &str) -> Result<(), Failure> {
         let path = if is_standard(&self.out) {
             STANDARD.into()
         } else if self.picture_ending().is_some() {
             self.out.clone()
         } else {
-            self.out.join(format!("{stem}.png"))
+            self.out.join(format!("liquid-glass{}{kind}.png", self.told_apart))
         };
         // Screens composite without exposure and tone curve.
         let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };

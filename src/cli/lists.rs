@@ -2,7 +2,7 @@
 
 use super::console::{json, print};
 use brillianteer_base::Failure;
-use brillianteer_files::assembly::Assembly;
+use brillianteer_files::assembly::stone_count;
 use brillianteer_files::library::{CUTS, SCENES, cut, scene};
 use brillianteer_files::{cut_file, light_file, scene_file, scope_file};
 use brillianteer_optics::{line, materials};
@@ -97,13 +97,7 @@ impl Scenes {
         let mut rows = vec![];
         for (name, text) in SCENES {
             let scene = scene_file::parse(text, name, None)?;
-            let title = scene.name.clone();
-            // A ring has to be made before the number of its stones is known.
-            let stones = match scene.ring {
-                Some(_) => Assembly::of(Path::new(name), scene)?.places.len(),
-                None => scene.stones.iter().map(|s| s.count).sum(),
-            };
-            rows.push((name, stones, title));
+            rows.push((name, stone_count(Path::new(name), &scene)?, scene.name));
         }
         if self.json {
             let entry = |(name, stones, title)| json!({ "name": name, "title": title, "stones": stones });

@@ -267,11 +267,10 @@ const NOT_SHOWN_DEG: f64 = 5e-4;
 fn list_of_measures(report: &MeasureReport) -> String {
     let MeasureReport { viewing, settings, measures, weighted_return } = report;
     let mut text = format!(
-        "{}: {}, {}, index {:.4}, {}\n\n{:<28}{:>9}{:>10}\n",
+        "{}: {}, {}, {}\n\n{:<28}{:>9}{:>10}\n",
         viewing.file,
         viewing.specimen.design.name,
-        viewing.specimen.material.name,
-        viewing.medium.index,
+        viewing.specimen.material.with_index(viewing.medium.index),
         viewing.viewpoint.description(),
         "% of face",
         "value",
@@ -331,11 +330,10 @@ fn table(report: &FigureReport, timing: bool) -> String {
     let (f, scope) = (&measured.figures, &measured.scope);
     let has_glare = viewing.glare != Some(Glare::LeftOut);
     let mut text = format!(
-        "{}: {}, {}, index {:.4}, {}, in {}\n\n",
+        "{}: {}, {}, {}, in {}\n\n",
         viewing.file,
         viewing.specimen.design.name,
-        viewing.specimen.material.name,
-        viewing.medium.index,
+        viewing.specimen.material.with_index(viewing.medium.index),
         viewing.viewpoint.description(),
         scope.name,
     );

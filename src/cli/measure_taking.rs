@@ -1,7 +1,7 @@
 //! Takes the measures of a design, for the commands that vary it.
 
 use super::options::{ViewOptions, number};
-use super::specimen::note_no_fire;
+use super::specimen::{note_namesakes, note_no_fire};
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
 use brillianteer_measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
@@ -52,6 +52,7 @@ impl MeasureTaking {
     ) -> Result<Sweep, Failure> {
         let specimen = self.specimen.load(file)?;
         let is_varied = axes.iter().any(|axis| axis.key == SweepKey::Material);
+        note_namesakes(&specimen.path, &specimen.design.cut, axes.iter().map(|axis| &axis.key));
         note_no_fire(&specimen.material, measures.iter().copied().filter(|_| !is_varied), "by --material");
         Ok(Sweep {
             design: specimen.design.clone(),

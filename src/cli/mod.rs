@@ -10,6 +10,7 @@ mod choice;
 mod comments;
 mod console;
 mod convert;
+mod default_name;
 #[cfg(test)]
 mod documents;
 mod estimate_list;
@@ -173,7 +174,13 @@ fn parsed(words: &[OsString]) -> Result<Arguments, clap::Error> {
     };
     let mut line = Arguments::command().mut_subcommands(|command| command.mut_args(may_be_negative));
     let matches = line.try_get_matches_from_mut(words)?;
-    Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut line))
+    let mut arguments = Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut line))?;
+    if let (Some(command), Some((name, given))) = (&mut arguments.command, matches.subcommand())
+        && let (Some(told_apart), Some(options)) = (command.told_apart(), line.find_subcommand(name))
+    {
+        *told_apart = default_name::told_apart(options, given);
+    }
+    Ok(arguments)
 }
 
 /// Runs the program with the arguments of the process and returns its exit code.
@@ -251,6 +258,20 @@ fn edit(
 }
 
 impl Command {
+    /// Returns the place for what the options add to the default names of files, of a command that has such names.
+    fn told_apart(&mut self) -> Option<&mut String> {
+        match self {
+            Self::Export(export) => Some(&mut export.told_apart),
+            Self::Render(render) => Some(&mut render.told_apart),
+            Self::Spin(spin) => Some(&mut spin.told_apart),
+            Self::RefractionMap(maps) => Some(&mut maps.told_apart),
+            Self::RefractionImport(import) => Some(&mut import.told_apart),
+            Self::LiquidGlass(glass) => Some(&mut glass.told_apart),
+            Self::Sheet(sheet) => Some(&mut sheet.told_apart),
+            _ => None,
+        }
+    }
+
     /// Runs the command. `edit` always fails here, because no editor is passed on.
     fn run(self) -> Result<(), Failure> {
         match self {

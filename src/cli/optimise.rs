@@ -6,7 +6,7 @@ use super::optimise_text::{json_value, text};
 use super::options::number;
 use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
-use super::specimen::{lacks_fire, no_fire, note_no_fire};
+use super::specimen::{lacks_fire, no_fire, note_namesakes, note_no_fire};
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
 use brillianteer_base::unwatched;
@@ -16,6 +16,7 @@ use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_measure::{MeasureName, NoMeasure};
 use brillianteer_paper::goal_file;
 use brillianteer_paper::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
+use brillianteer_render::SweepKey;
 use brillianteer_scene::Specimen;
 use brillianteer_search::{
     DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
@@ -49,7 +50,7 @@ pub struct OptimiseArguments {
     #[command(flatten)]
     specimen: SpecimenOptions,
     /// The file to write the design to; its ending names the format
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Draw how the best grew, as .svg, .png or .pdf
     #[arg(long, value_name = "FILE")]
@@ -171,6 +172,11 @@ impl OptimiseArguments {
             return Err(Failure::Usage(format!("{path}: nothing to search for: {why}")));
         }
         note_no_fire(&specimen.material, own.map(|measure| measure.of), where_to);
+        note_namesakes(
+            &path,
+            &specimen.design.cut,
+            &goal.vary.keys().map(|key| SweepKey::of(key)).collect::<Vec<_>>(),
+        );
         note_held(&path, &search);
         let outcome = self.searched(&search, &path).map_err(refused)?;
         if outcome.was_stopped {

@@ -1,19 +1,24 @@
 //! `refraction-template` writes the gradient that another renderer shows through its glass; `refraction-import` turns
 //! its rendered picture into a refraction map.
 
-use super::console::{say, written};
+use super::console::written;
 use super::map_files::{MapFiles, MapKind, folder, kinds_or_usual};
 use super::options::number;
 use super::picturing::within;
+use super::progress::WorkProgress;
 use super::specimen::stem;
 use brillianteer_base::Failure;
 use brillianteer_files::is_standard;
 use brillianteer_paper::background;
+use brillianteer_paper::export::Event;
 use brillianteer_paper::refraction::{MOST_MAP_PIXELS, Template, read, write_template};
 use brillianteer_scene::Background;
 use brillianteer_scene::BackgroundRef;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+
+/// The part of the work of an import that is done when the map is read, for its progress.
+const READING: f64 = 0.6;
 
 /// The coding of a template, with its name on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -59,7 +64,7 @@ pub struct RefractionImport {
     #[arg(long, value_enum)]
     coding: Option<TemplateCoding>,
     /// Folder to write to
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Kinds of file to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
@@ -71,6 +76,9 @@ pub struct RefractionImport {
     /// The width of the template, seen straight on, as a multiple of the picture's
     #[arg(long, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl RefractionTemplate {
@@ -98,13 +106,18 @@ impl RefractionImport {
             return Err(Failure::Usage(message.into()));
         }
         let kinds = kinds_or_usual(&self.format, background.is_picture())?;
+        let stem = stem(&self.pictures[0]);
+        let progress = WorkProgress::new(&format!("reading {stem}"));
         let found = read(&self.pictures, self.diffuse.as_deref(), self.coding.map(TemplateCoding::template))?;
-        found.warnings.iter().for_each(|warning| say(&format!("warning: {warning}")));
-        found.notes.iter().for_each(|note| say(&format!("note: {note}")));
+        // The progress never asks to stop.
+        let _ = progress.watch()(READING);
+        found.warnings.iter().try_for_each(|warning| progress.report(Event::Warning(warning)))?;
+        found.notes.iter().try_for_each(|note| progress.report(Event::Note(note)))?;
         let [width, height] = found.map.size;
         let photo = background::picture_behind(&background, width.max(height))?;
-        photo.iter().flat_map(|photo| &photo.warnings).for_each(|w| say(&format!("warning: {w}")));
-        let stem = stem(&self.pictures[0]);
+        let warnings = photo.iter().flat_map(|photo| &photo.warnings);
+        warnings.into_iter().try_for_each(|warning| progress.report(Event::Warning(warning)))?;
+        progress.report(Event::Begun(&format!("writing {stem}")))?;
         let description = format!(
             "{stem}; refraction map read from {}, bands {}; background {} times as wide",
             self.pictures[0].file_name().unwrap_or_default().display(),
@@ -113,7 +126,7 @@ impl RefractionImport {
         );
         let files = MapFiles {
             out: &self.out,
-            stem: &stem,
+            stem: &format!("{stem}{}", self.told_apart),
             kinds: &kinds,
             title: &stem,
             description: &description,
@@ -121,6 +134,6 @@ impl RefractionImport {
             background: &background,
             photo: photo.as_ref().map(|photo| &photo.panorama),
         };
-        files.write(&found.map, &written)
+        files.write(&found.map, &|path| progress.report(Event::Written(path)))
     }
 }

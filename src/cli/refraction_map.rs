@@ -28,7 +28,7 @@ pub struct RefractionMaps {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Folder to write to
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Kinds of file to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
@@ -50,6 +50,9 @@ pub struct RefractionMaps {
     view: ViewOptions,
     #[command(flatten)]
     picture: PictureOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl RefractionMaps {
@@ -115,7 +118,7 @@ impl RefractionMaps {
         );
         let files = MapFiles {
             out: &self.out,
-            stem: &format!("{}{}", stem(file), viewpoint.suffix()),
+            stem: &format!("{}{}{}", stem(file), self.told_apart, viewpoint.suffix()),
             kinds: &kinds,
             title: &studio.assembly.name,
             description: &description,

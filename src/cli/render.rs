@@ -20,7 +20,7 @@ pub struct Render {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// File (.png or .exr) or folder to write to; `-` is standard output, as PNG
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// Name the facet at X,Y, in pixels from the upper left corner, instead of drawing a picture
     #[arg(long, value_name = "X,Y", value_parser = point)]
@@ -31,6 +31,9 @@ pub struct Render {
     picture: PictureOptions,
     #[command(flatten)]
     finish: FinishOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 fn point(text: &str) -> Result<glam::DVec2, String> {
@@ -71,7 +74,7 @@ impl Render {
         let ending = self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {
             Some("png" | "exr") if !self.out.is_dir() => (self.out.clone(), true),
-            _ => (self.out.join(format!("{}{suffix}-render.png", stem(file))), false),
+            _ => (self.out.join(format!("{}{}{suffix}-render.png", stem(file), self.told_apart)), false),
         }
     }
 

@@ -1,7 +1,7 @@
 //! `retarget`: fits a design to another material, and measures the light of both.
 
 use super::comments;
-use super::console::{json, print, say};
+use super::console::{json, print, say, written};
 use super::options::{checked_wavelength, extrapolation, number};
 use super::specimen::{asked_material, note_colour};
 use super::specimen_options::SizeOptions;
@@ -35,7 +35,7 @@ pub struct RetargetArguments {
     #[arg(long, value_enum, default_value_t = RetargetSide::Pavilion)]
     side: RetargetSide,
     /// The file to write the new design to; its ending names the format
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Measure no light
     #[arg(long)]
@@ -127,6 +127,9 @@ impl RetargetArguments {
         if let (Some(out), Some(format)) = (&self.out, format) {
             let lost = design_file::write(&made, format, out)?;
             lost.iter().for_each(|what| say(&format!("note: {}: {what}", out.display())));
+            if !self.json {
+                written(out)?;
+            }
         }
         Ok(())
     }

@@ -20,7 +20,7 @@ pub struct SheetArguments {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// A file, whose ending names the format, or a folder to write to; `-` is standard output and needs --format
-    #[arg(long, default_value = "out", value_name = "FILE|FOLDER")]
+    #[arg(short, long, default_value = "out", value_name = "FILE|FOLDER")]
     out: PathBuf,
     /// The format to write, whatever the ending [default: that of the ending, else pdf]
     #[arg(long, value_parser = one_of(&SHEET_FORMATS))]
@@ -36,6 +36,9 @@ pub struct SheetArguments {
     json: bool,
     #[command(flatten)]
     specimen: SpecimenOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 impl SheetArguments {
@@ -54,7 +57,7 @@ impl SheetArguments {
                 return print(&if self.files.len() == 1 { json(&value) } else { value.to_string() });
             };
             let path = match is_folder {
-                true => self.out.join(format!("{}-sheet.{}", stem(file), format.ending())),
+                true => self.out.join(format!("{}{}-sheet.{}", stem(file), self.told_apart, format.ending())),
                 false => self.out.clone(),
             };
             write(&sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))?;
@@ -109,7 +112,11 @@ mod tests {
         run(&["shallow", "--out", &path("b.bin"), "--format", "pdf"]).unwrap();
         run(&["shallow", "--json"]).unwrap();
         let is_there = |name: &str| Path::new(&path(name)).is_file();
-        assert!(["a.svg", "tolkowsky-sheet.pdf", "shallow-sheet.pdf", "b.bin"].into_iter().all(is_there));
+        assert!(
+            ["a.svg", "tolkowsky-left-handed-sheet.pdf", "shallow-left-handed-sheet.pdf", "b.bin"]
+                .into_iter()
+                .all(is_there)
+        );
         assert!(std::fs::read_to_string(path("a.svg")).unwrap().contains("width=\"215.9mm\""));
         assert!(std::fs::read(path("b.bin")).unwrap().starts_with(b"%PDF-"));
         for (options, said) in [

@@ -2,6 +2,7 @@
 
 use super::console::say;
 use brillianteer_base::Failure;
+use brillianteer_cut::Cut;
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{MaterialError, MaterialRef, Size};
 use brillianteer_files::built_design::{BuiltDesign, OtherReadings};
@@ -10,7 +11,9 @@ use brillianteer_files::mesh::MeshBody;
 use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_measure::MeasureName;
 use brillianteer_optics::{Dispersion, Material};
+use brillianteer_render::SweepKey;
 use brillianteer_scene::Stone;
+use brillianteer_scene::{self};
 use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::path::Path;
@@ -87,17 +90,19 @@ impl LoadedSpecimen {
     }
 }
 
-/// Prints which options read a file in another way.
+/// Prints which options read a file in another way, each of them once in a run, with the first file that it is of use for.
 pub fn note_readings(other: &OtherReadings) {
-    let path = &other.path;
-    if other.of_bodies {
-        say(&format!("note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"));
-    }
-    if other.of_symmetry {
-        say(&format!("note: {path}: --as-found keeps the facets as found"));
-    }
-    if other.of_shape {
-        say(&format!("note: {path}: --as and --up choose how it is read"));
+    let OtherReadings { path, of_bodies, of_shape, of_symmetry } = other;
+    static SAID: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+    let is_new = |what| SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(what);
+    for (applies, what) in [
+        (*of_bodies, "--part NUMBER, --part NAME or --part all chooses what is read of it"),
+        (*of_symmetry, "--as-found keeps the facets as found"),
+        (*of_shape, "--as and --up choose how it is read"),
+    ] {
+        if applies && is_new(what) {
+            say(&format!("note: {path}: {what}"));
+        }
     }
 }
 
@@ -120,6 +125,21 @@ pub fn note_colour(material: &Material) {
             "note: the colour of {} is illustrative: chosen to look like the gem's, and not measured",
             material.name
         ));
+    }
+}
+
+/// Prints a note for each key of a tier whose name several tiers of a design have: which of them the key means, and how the
+/// others are called.
+pub fn note_namesakes<'k>(path: &str, cut: &Cut, keys: impl IntoIterator<Item = &'k SweepKey>) {
+    for key in keys {
+        let (SweepKey::Tier(name) | SweepKey::Distance(name)) = key else { continue };
+        let others = cut.namesakes(name);
+        if !others.is_empty() {
+            let (count, others) = (others.len() + 1, others.join(", "));
+            say(&format!(
+                "note: {path}: {count} tiers are called {name}; {key} is the first of them, and the others are {others}"
+            ));
+        }
     }
 }
 

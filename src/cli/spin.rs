@@ -46,7 +46,7 @@ pub struct Spin {
     file: PathBuf,
     /// File (.png, .gif or .mp4) or folder to write to; into a folder go the animation NAME-spin.png, and its frames in
     /// NAME-spin/
-    #[arg(long, default_value = "out")]
+    #[arg(short, long, default_value = "out")]
     out: PathBuf,
     /// The motion of the stone
     #[arg(long, value_enum, default_value_t = StoneMotion::Turn)]
@@ -76,6 +76,9 @@ pub struct Spin {
     picture: PictureOptions,
     #[command(flatten)]
     finish: FinishOptions,
+    /// What the options add to the default names of files.
+    #[arg(skip)]
+    pub told_apart: String,
 }
 
 /// The output of an animation: its file, and the folder of its frames.
@@ -229,7 +232,7 @@ impl Spin {
             return SpinOutput { path: self.out.clone(), stills: None };
         }
         let scope = if scope.is_empty() { String::new() } else { format!("-{scope}") };
-        let name = format!("{}{}{scope}-spin", stem(&self.file), asked.suffix());
+        let name = format!("{}{}{}{scope}-spin", stem(&self.file), self.told_apart, asked.suffix());
         let path = self.out.join(format!("{name}.{}", format.ending()));
         SpinOutput { path, stills: Some(self.out.join(name)) }
     }

@@ -1,6 +1,6 @@
 //! `sweep`: writes the measures of designs over a grid of their proportions, angles, materials and views.
 
-use super::console::say;
+use super::console::{say, written};
 use super::measure_taking::MeasureTaking;
 use super::options::{pupil_diameter, rock_angle};
 use super::progress::WorkProgress;
@@ -44,7 +44,7 @@ pub struct SweepArguments {
     #[arg(long = "of", value_name = "MEASURE")]
     measures: Vec<MeasureName>,
     /// The file to write: .csv or .jsonl, row by row, or .parquet in the end [default: CSV on standard output]
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Continue the file of --out, where the same command was stopped
     #[arg(long, requires = "out")]
@@ -165,6 +165,7 @@ impl SweepArguments {
         // A plot that cannot be drawn must not lose a row of the table.
         if let Some(table) = outputs.table.take() {
             table.finish()?;
+            self.out.iter().try_for_each(|out| written(out))?;
         }
         match &outputs.plot {
             Some(plot) if outputs.failed < files.len() * points => plot.write(&stem(&files[0]))?,

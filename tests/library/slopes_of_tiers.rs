@@ -1,5 +1,6 @@
 //! The exact slopes of measures by the angles and distances of cutters' tiers.
 
+use brillianteer::base::unwatched;
 use brillianteer::cut::{Cut, Design, ScaledSide};
 use brillianteer::io::{as_tiers, cut_file, library};
 use brillianteer::measure::{MeasureDerivatives, MeasureName, MeasureSettings};
@@ -59,7 +60,7 @@ fn traced(design: &Design) -> Traced {
 fn sums(of: &Traced, settings: &MeasureSettings) -> Vec<MeasureDerivatives> {
     let name = |name: &&str| {
         let name: MeasureName = name.parse().unwrap();
-        name.derivatives(&of.beams, &of.stone.polytope, settings).unwrap()
+        name.derivatives(&of.beams, &of.stone.polytope, settings, &unwatched).unwrap().unwrap()
     };
     NAMES.iter().map(name).collect()
 }

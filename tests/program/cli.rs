@@ -8,6 +8,7 @@ mod faults;
 mod helps;
 mod maps;
 mod meshes;
+mod newcomers;
 mod outputs;
 mod panes;
 mod pictures;
@@ -441,7 +442,9 @@ fn a_card_measures_and_draws_as_rays_do_and_is_named() {
     for tracer in ["gpu", "ray"] {
         desk.run(&format!("{export} {tracer} --out {tracer}"));
     }
-    for file in ["aset.png", "aset-strongest.png"].map(|end| format!("tolkowsky-tilt-7-azimuth-20-{end}")) {
+    for file in
+        ["aset.png", "aset-strongest.png"].map(|end| format!("tolkowsky-index-1.5-tilt-7-azimuth-20-{end}"))
+    {
         let [(_, card, description), (_, rays, _)] =
             ["gpu", "ray"].map(|folder| png(&desk.at(folder).join(&file)));
         assert!(description.contains("point rays in f32 on "), "{description}");

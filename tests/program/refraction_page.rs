@@ -106,8 +106,8 @@ fn psnr(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
 #[test]
 fn the_page_shows_what_the_program_refracts() {
     let Some(browser) = browser() else { return };
-    let tilted = (1, "--tilt 20", "modern-ideal-tilt-20");
-    let near = (5, "--bands 5 --both-sides --perspective 6", "modern-ideal-perspective-6");
+    let tilted = (1, "--tilt 20", "modern-ideal-photo-tilt-20");
+    let near = (5, "--bands 5 --both-sides --perspective 6", "modern-ideal-both-sides-photo-perspective-6");
     for (bands, options, stem) in [tilted, near] {
         let offset = DVec2::new(0.375, -0.25) * f64::from(bands - 1);
         let folder = made(&format!("--background photo.png {options}"));
@@ -173,7 +173,7 @@ fn rendered_elsewhere(folder: &Path, map: &refraction::LoadedMap) {
 fn the_page_of_a_foreign_map_shows_the_picture_of_the_own_page() {
     let Some(browser) = browser() else { return };
     let folder = made("--background photo.png --both-sides --format exr,page");
-    let stem = "modern-ideal";
+    let stem = "modern-ideal-both-sides-photo";
     let own = refraction::read(
         &refraction::paths(folder.path(), stem, 1, refraction::Coding::Float),
         Some(&refraction::diffuse_path(folder.path(), stem)),
@@ -196,7 +196,7 @@ fn the_page_of_a_foreign_map_shows_the_picture_of_the_own_page() {
         open(&browser, folder.path(), &address, &[&SOFTWARE[..], &more].concat());
         shot(&picture)
     };
-    let (own, foreign) = (seen(stem), seen("foreign"));
+    let (own, foreign) = (seen(stem), seen("foreign-photo"));
     let mut mirrored = own.clone();
     mirrored.chunks_mut(200).for_each(<[_]>::reverse);
     let (same, other) = (psnr(&own, &foreign), psnr(&mirrored, &foreign));

@@ -1,5 +1,6 @@
 //! A report of a stone's facets: its tiers with the spread of their slopes.
 
+use super::Cut;
 use super::facet_zones::{EXACT, FacetZones};
 use super::outline::{AlongAxes, Outline};
 use super::{TierZone, tier_stem};
@@ -26,10 +27,10 @@ impl Spread {
     }
 }
 
-/// The facets of one zone whose names differ only by a number.
+/// The facets of one tier in one zone.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TierReport {
-    /// The name they share.
+    /// The name of the tier: where several tiers have one name of their own, the second has `#2` behind it, and so on.
     pub name: String,
     /// The zone where they lie: `table`, `crown`, `girdle`, `pavilion` or `culet`.
     pub zone: &'static str,
@@ -67,8 +68,24 @@ pub struct ProportionReport {
 }
 
 impl ProportionReport {
-    /// Measures a solid whose facets have these names, in the same order.
+    /// Measures a solid whose facets have these names, in the same order. Facets whose names differ only by a number are one
+    /// tier.
     pub fn of(stone: &Polytope, names: &[String]) -> Self {
+        Self::with_tiers(stone, &names.iter().map(|name| tier_stem(name)).collect::<Vec<_>>())
+    }
+
+    /// Measures the solid of a cut, whose facets have these names, in the same order. Its tiers are those of
+    /// [`Cut::settings`], by their names there, where the cut has such.
+    pub fn of_cut(cut: &Cut, stone: &Polytope, names: &[String]) -> Self {
+        let tiers = cut.tiers_of_facets();
+        let tier =
+            |name: &'_ String| tiers.get(name).map_or_else(|| tier_stem(name).to_owned(), String::clone);
+        let named: Vec<String> = names.iter().map(tier).collect();
+        Self::with_tiers(stone, &named.iter().map(String::as_str).collect::<Vec<_>>())
+    }
+
+    /// Measures a solid whose facets lie in tiers of these names.
+    fn with_tiers(stone: &Polytope, names: &[&str]) -> Self {
         let outline = Outline::of(stone);
         let percent = |length: f64| 100.0 * length / outline.diameter;
         Self {
@@ -135,10 +152,10 @@ fn girdle_edges(stone: &Polytope, percent: impl Fn(f64) -> f64) -> Option<Spread
     (!lengths.is_empty()).then(|| Spread::of(lengths.iter().copied()))
 }
 
-fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
+fn tiers(stone: &Polytope, names: &[&str]) -> Vec<TierReport> {
     let zones = FacetZones::of(stone);
     let named = stone.facets().iter().zip(names);
-    let facets = named.map(|(facet, name)| ((tier_stem(name), zones.zone(facet)), facet.plane));
+    let facets = named.map(|(facet, name)| ((*name, zones.zone(facet)), facet.plane));
     let report = |tier: Vec<((&str, TierZone), Plane)>| {
         let (name, zone) = tier[0].0;
         let slope = |normal: DVec3| normal.truncate().length().atan2(normal.z.abs()).to_degrees();

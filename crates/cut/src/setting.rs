@@ -1,7 +1,9 @@
 //! The tiers of any cut that lists its facets. Each tier has one angle and one distance, which can be set.
 
+use super::names::unique;
 use super::{Cut, TierZone, tier_stem};
 use brillianteer_math::{Plane, grouped};
+use std::collections::HashMap;
 use std::collections::HashSet;
 
 /// A tier with the numbers that are set on a faceting machine. Where its facets differ, the numbers are their means.
@@ -35,6 +37,43 @@ impl Cut {
             }
         }
         settings
+    }
+
+    /// Returns the names of the further tiers that a design calls by the same name as the first, which bears it in
+    /// [`settings`](Self::settings): of `2` it is `2#2`, and so on. Empty for a name of one tier, or of none.
+    pub fn namesakes(&self, name: &str) -> Vec<String> {
+        let own = self.settings_as_named().into_iter().map(|setting| setting.name);
+        let called = self.settings().into_iter().map(|setting| setting.name);
+        own.zip(called)
+            .filter(|(own, called)| own == name && called != name)
+            .map(|(_, called)| called)
+            .collect()
+    }
+
+    /// Returns the name of its tier in [`settings`](Self::settings) for each facet, by the facet's name; none for a cut that has no
+    /// settings.
+    pub(super) fn tiers_of_facets(&self) -> HashMap<String, String> {
+        let settings = self.settings();
+        match self {
+            Self::RoundBrilliant(_) | Self::Family(_) | Self::Mesh(_) | Self::Glass(_) => HashMap::new(),
+            Self::Tiers(design) => {
+                let tiers = settings.iter().flat_map(|tier| std::iter::repeat_n(&tier.name, tier.facets));
+                design
+                    .facets()
+                    .into_iter()
+                    .zip(tiers)
+                    .map(|((facet, _), tier)| (facet, tier.clone()))
+                    .collect()
+            }
+            Self::Planes(planes) => {
+                let names = unique(planes.iter().map(|(name, _)| name.as_str()));
+                let named = groups(planes).into_iter().zip(settings);
+                named
+                    .flat_map(|(group, tier)| group.into_iter().map(move |k| (k, tier.name.clone())))
+                    .map(|(k, tier)| (names[k].clone(), tier))
+                    .collect()
+            }
+        }
     }
 
     fn settings_as_named(&self) -> Vec<MachineSetting> {
@@ -156,6 +195,9 @@ mod tests {
             .collect();
         // A name that stands for a facet of another tier gives way to a tier's short name.
         assert_eq!(names, ["2", "1", "2#2", "C4", "2#3"]);
+        let cut = Cut::Tiers(Tiers { tiers: ["2", "1", "2"].map(tier).to_vec(), ..Tiers::default() });
+        assert_eq!(cut.namesakes("2"), ["2#2"]);
+        assert!(cut.namesakes("1").is_empty() && cut.namesakes("2#2").is_empty());
     }
 
     #[test]

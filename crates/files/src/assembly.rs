@@ -245,6 +245,18 @@ impl Assembly {
     }
 }
 
+/// Returns the number of stones of a scene, without assembling it: the metal of a ring is not made. `file` is the path or the
+/// name of the scene.
+///
+/// # Errors
+/// Fails where a cut of a ring cannot be read, or where its numbers leave no place for its stones.
+pub fn stone_count(file: &Path, scene: &SceneFile) -> Result<usize, Failure> {
+    let listed: usize = scene.stones.iter().map(|entry| entry.count).sum();
+    let Some(entry) = &scene.ring else { return Ok(listed) };
+    let cuts = read_cuts(file, scene, &MeshOptions::default())?;
+    Ok(listed + ring::stone_count(file, entry, &cuts.specimens)?)
+}
+
 /// Returns the scene in a file, or the scene of that name that comes with the program; `None` where it is not a scene.
 fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
     if file.is_file() || is_standard(file) {

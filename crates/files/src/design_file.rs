@@ -12,12 +12,15 @@ use super::cut_file;
 use super::cutters::WarningList;
 use super::mesh::{self, FINENESS, MaterialHint, Stated, stated_in_stl};
 use super::mesh_options::MeshOptions;
+use super::mesh_options::MeshUnit;
 use super::{WriteError, text};
 use super::{asc, foreign, gcs, gem, write as write_whole};
 use super::{write_glb, write_obj, write_ply, write_stl};
 use brillianteer_base::Failure;
 use brillianteer_base::{Fault, FileError};
+use brillianteer_cut::DEFAULT_DIAMETER_MM;
 use brillianteer_cut::{Design, MaterialRef};
+use brillianteer_math::at_most;
 use brillianteer_scene::{Body, Specimen};
 use std::path::Path;
 
@@ -127,7 +130,8 @@ pub fn read_with(path: &Path, options: &MeshOptions) -> Result<ImportedDesign, F
     if mesh::looks_like(&bytes).is_some() {
         return mesh::read(bytes, path, options);
     }
-    let mut brought = match DesignFormat::of(&bytes, path).map_err(named)? {
+    let format = DesignFormat::of(&bytes, path).map_err(named)?;
+    let mut brought = match format {
         DesignFormat::Asc => asc::read(&bytes, &label),
         DesignFormat::Gem => gem::read(&bytes, &label),
         DesignFormat::Gcs => gcs::read(&bytes, &label),
@@ -137,6 +141,12 @@ pub fn read_with(path: &Path, options: &MeshOptions) -> Result<ImportedDesign, F
         DesignFormat::Toml => text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(with_warnings),
     }
     .map_err(named)?;
+    let is_sized = format == DesignFormat::Toml || options.unit == MeshUnit::Unneeded;
+    if !is_sized {
+        brought.notes.push(format!(
+            "the file states no size; the stone is taken to be {DEFAULT_DIAMETER_MM} mm across"
+        ));
+    }
     if options.is_given() {
         brought.notes.push("the options of meshes have no effect on this design".to_owned());
     }
@@ -223,7 +233,7 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
     lost.extend(specimen.design.cut.brilliant().map(|_| measured.to_owned()));
     if let Body::Glass(smooth) = &*specimen.body {
         let off = smooth.field().deviation(FINENESS) * specimen.unit_mm();
-        lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
+        lost.push(format!("its smooth surface is written as triangles, {} mm off it at most", at_most(off)));
     }
     if specimen.body.is_frosted() {
         lost.push("a mesh has no place for frosted facets; they will be read as polished".to_owned());

@@ -54,9 +54,8 @@ const STAND_INS: [(&[u8], &str); 3] = [
 /// The words that begin a file of OFF, in small letters.
 const OFF: [&[u8]; 5] = [b"off", b"coff", b"noff", b"cnoff", b"stoff"];
 
-/// The formats that are read, and what to do.
-const SAVE_AS: &str = "designs as .toml, .asc, .gem and .gcs, and meshes as glTF, OBJ, STL and PLY are read: save it as one \
-                       of them";
+/// The formats that are read.
+const READ: &str = "designs as .toml, .asc, .gem and .gcs, and meshes as glTF, OBJ, STL and PLY are read";
 
 /// Archives and packed files by the bytes that they begin with.
 const PACKED: [(&[u8], &str); 7] = [
@@ -103,15 +102,16 @@ pub(super) fn refusal(bytes: &[u8]) -> Option<String> {
 }
 
 fn message(format: &str) -> String {
-    format!("this is {format}; {SAVE_AS}")
+    format!("this is {format}; {READ}: save it as one of them")
 }
 
-/// Returns the message about a file that is of no format that is known, by its content or by its name.
+/// Returns the message about a file that is of no known format, by its content or by its name.
 pub(super) fn unknown() -> String {
-    message("of no known format")
+    format!("this is not a design: {READ}")
 }
 
-/// Returns whether bytes may be a text of keys and values, as TOML is: some line has a key with a value, or a table's name.
+/// Returns whether bytes may be a text of keys and values, as TOML is: its first line that is neither empty nor a remark has a
+/// key with a value, or a table's name.
 pub(super) fn has_keys(bytes: &[u8]) -> bool {
     let text = with_line_feeds(&in_utf8(&bytes[..bytes.len().min(LOOKED_AT)])).into_owned();
     let is_key = |c: char| c.is_alphanumeric() || "_-.\"' ".contains(c);
@@ -120,7 +120,8 @@ pub(super) fn has_keys(bytes: &[u8]) -> bool {
         None => line.starts_with('[') && line.ends_with(']'),
     };
     let text = String::from_utf8_lossy(&text);
-    !text.contains('\0') && text.lines().map(str::trim).any(has_key)
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    !text.contains('\0') && lines.next().is_some_and(has_key)
 }
 
 /// Returns whether bytes are one chunk of 3D Studio that is as long as it says.
@@ -211,13 +212,21 @@ mod tests {
             "format = 1\n",
             "\n# x\n[round_brilliant]\n",
             "\u{feff}name=\"a\"",
-            "tier.angle = 3",
+            "# a title\n\ntier.angle = 3",
             "a = 1\rb = 2",
         ] {
             assert!(has_keys(keyed.as_bytes()), "{keyed}");
         }
-        for other in ["", "8 6 0\n0 0 0\n", "polyhedron(points=[", "<a b=\"c\"/>", "a = 1\0", "hello", "= 3"]
-        {
+        for other in [
+            "",
+            "8 6 0\n0 0 0\n",
+            "polyhedron(points=[",
+            "<a b=\"c\"/>",
+            "a = 1\0",
+            "hello",
+            "= 3",
+            "# Title\n\nProse.\n\n[a]\nb = 1\n",
+        ] {
             assert!(!has_keys(other.as_bytes()), "{other}");
         }
     }

@@ -19,6 +19,19 @@ pub fn fixed(number: f64, decimals: usize) -> String {
     without_sign_of_zero(format!("{number:.decimals$}"))
 }
 
+/// The least bound that [`at_most`] writes.
+const LEAST_BOUND: f64 = 1e-6;
+
+/// Formats the size of a bound or an error as a plain decimal with two significant digits, rounded up; one below a millionth as a
+/// millionth.
+pub fn at_most(bound: f64) -> String {
+    let size = bound.abs().max(LEAST_BOUND);
+    // Behind the second digit; rounding must not raise a number of two digits.
+    let decimals = (1.0 - size.log10().floor()).max(0.0);
+    let step = 10f64.powf(decimals);
+    rounded((size * step * (1.0 - 1e-12)).ceil() / step, decimals as usize)
+}
+
 /// Formats a difference with this many decimals and its sign; one that is rounded to 0 has none.
 pub fn signed(difference: f64, decimals: usize) -> String {
     without_sign_of_zero(format!("{difference:+.decimals$}"))
@@ -40,6 +53,15 @@ mod tests {
         assert_eq!(
             texts.map(|(number, decimals)| rounded(number, decimals)),
             ["15.6", "80", "0", "100", "0.0001"]
+        );
+    }
+
+    #[test]
+    fn a_bound_is_a_plain_decimal_that_is_never_too_small() {
+        let bounds = [0.0012, 0.00121, 2.8e-3, 9.97e-4, 0.35, 1.0, 17.2, 8.6e-9, 0.0];
+        assert_eq!(
+            bounds.map(at_most),
+            ["0.0012", "0.0013", "0.0028", "0.001", "0.35", "1", "18", "0.000001", "0.000001"]
         );
     }
 

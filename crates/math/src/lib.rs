@@ -43,7 +43,7 @@ pub use basis::Basis;
 pub use bvh::{Bvh, BvhNode, FromSide, Hit};
 pub use calipers::{Calipers, hull};
 pub use decay::{Moments, integral_of_decay, moments_along_edge, moments_of_decay};
-pub use decimals::{as_written, fixed, rounded, signed};
+pub use decimals::{as_written, at_most, fixed, rounded, signed};
 pub use draft::{Draft, DraftCut};
 pub use edge::Edge;
 pub use eigen::{eigen, outer};

@@ -55,6 +55,15 @@ impl Material {
         Ok(Self::clear(name, "One index for all wavelengths.", dispersion, source, None))
     }
 
+    /// Returns the material's name and the index at which it is seen, for titles. A material of which only the index is known has
+    /// no other name, so that its index alone is named.
+    pub fn with_index(&self, index: f64) -> String {
+        match self.dispersion {
+            Dispersion::Constant(_) if self.name.starts_with("index ") => format!("index {index:.4}"),
+            _ => format!("{}, index {index:.4}", self.name),
+        }
+    }
+
     /// Makes a clear glass with an index n_d and an Abbe number V_d.
     ///
     /// # Errors
@@ -451,6 +460,14 @@ mod tests {
         }
         assert!(material("quarz").unwrap_err().of_kind.is_empty(), "a slip is no kind");
         assert_eq!(material("quarz").unwrap_err().near, ["quartz"]);
+    }
+
+    #[test]
+    fn a_material_that_is_called_by_its_index_is_titled_by_one_index() {
+        let bare = Material::from_index("index 1.54", 1.54).unwrap();
+        assert_eq!(bare.with_index(1.54), "index 1.5400");
+        let glass = Material::from_index("glass", 1.5).unwrap();
+        assert_eq!(glass.with_index(1.6), "glass, index 1.6000");
     }
 
     #[test]

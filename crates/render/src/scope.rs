@@ -97,11 +97,14 @@ impl Renderer {
         let parts = 1 + 4 * usize::from(!derivatives.is_empty()) + usize::from(rocking.is_some());
         let options = job.quality.beams.with_part_of_memory(parts);
         let beams = self.beams.of((body, polytope), *medium, &job.view, &options, &share)?;
-        let derivatives =
-            derivatives.iter().map(|name| name.derivatives(&beams, polytope, settings)).collect();
-        let mut measures = LightMeasures::of(&beams, polytope, settings, &|done| {
-            own(BEAMS_SHARE + (1.0 - BEAMS_SHARE) * done)
-        })?;
+        // Each derivative takes about as long as the measures together.
+        let rest = (1.0 - BEAMS_SHARE) / (derivatives.len() + 1) as f64;
+        let after = |number: usize| move |done: f64| own(BEAMS_SHARE + rest * (number as f64 + done));
+        let derivatives = derivatives.iter().enumerate();
+        let derivatives = derivatives
+            .map(|(number, name)| name.derivatives(&beams, polytope, settings, &after(number)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut measures = LightMeasures::of(&beams, polytope, settings, &after(derivatives.len()))?;
         if let Some((pattern, rock_deg)) = rocking {
             let rest = |done: f64| watch(0.2 + 0.8 * done);
             let mut is_cut_short = false;

@@ -7,7 +7,7 @@ use crate::app::model::document::Document;
 use crate::app::model::impossible::{self, RowMessage};
 use crate::app::model::workspace::PanelSide;
 use crate::app::panels::row_focus;
-use crate::app::panels::rows::{ANY, FilledRow, Row, explain, field_width, named, wrong};
+use crate::app::panels::rows::{ANY, FilledRow, NOT_KNOWN, Row, explain, field_width, named, wrong};
 use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
 use brillianteer_cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
@@ -138,7 +138,10 @@ fn proportion_rows(
     let (given, follow): (Vec<_>, Vec<_>) = cut.proportions().iter().partition(|row| row.can_be_set());
     for proportion in given {
         let default = is_of_family.then(|| (proportion.get)(first));
-        if row(ui, (proportion, default), &mut cut, is_graded) {
+        // What follows from impossible numbers is no number of a stone; one that is wrong itself is shown as it was set.
+        let is_known =
+            is_possible || proportion.give.is_some() || said.is_some_and(|said| said.row == proportion);
+        if row(ui, (proportion, default, is_known), &mut cut, is_graded) {
             edited = Some(proportion.key);
         }
         if let Some(said) = said.filter(|said| said.row == proportion) {
@@ -195,11 +198,17 @@ fn warnings(document: &Document, ui: &mut Ui) {
 }
 
 /// Draws one proportion: name, slider and number, and for one of a pair a padlock; where GIA grades it, also the
-/// range of the grade Excellent. A double click sets it to `first`. Returns whether the user changed it.
-fn row(ui: &mut Ui, (proportion, first): (&Proportion, Option<f64>), cut: &mut Cut, is_graded: bool) -> bool {
+/// range of the grade Excellent. A double click sets it to `first`. A value that is not known is shown as a dash. Returns whether the
+/// user changed it.
+fn row(
+    ui: &mut Ui,
+    (proportion, first, is_known): (&Proportion, Option<f64>, bool),
+    cut: &mut Cut,
+    is_graded: bool,
+) -> bool {
     let Proportion { name, unit, usual: [least, most], step, speed, .. } = *proportion;
     ui.horizontal(|ui| {
-        let mut value = (proportion.get)(cut);
+        let mut value = if is_known { (proportion.get)(cut) } else { NOT_KNOWN };
         let before = value;
         let mark = ui.painter().add(egui::Shape::Noop);
         let decimals = if unit == Unit::Count { 0 } else { 2 };

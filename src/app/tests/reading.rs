@@ -51,6 +51,25 @@ fn a_mesh_that_is_opened_after_a_question_is_read_as_it_was_asked_for() {
 }
 
 #[test]
+fn until_the_first_file_is_read_no_other_stone_is_shown() {
+    let mut bench = Bench::new();
+    let editor = bench.harness.state_mut();
+    // Nothing reads this request, so that the state lasts.
+    let request =
+        FileRequest { purpose: OpeningPurpose::Anew, path: "slow.stl".into(), mesh: MeshOptions::default() };
+    let work = editor.model.document.work.clone();
+    editor.model.session.awaited.opening.push(Opening { request, work, read: None });
+    editor.is_starting = true;
+    bench.harness.run_steps(2);
+    let shows = |bench: &Bench, label: &str| bench.harness.query_all_by_label(label).next().is_some();
+    assert!(shows(&bench, "reading slow.stl…") && !shows(&bench, "Crown angle"));
+    bench.harness.state_mut().model.session.awaited.opening.clear();
+    bench.harness.run_steps(2);
+    assert!(!shows(&bench, "reading slow.stl…") && shows(&bench, "Crown angle"));
+    assert!(!bench.editor().is_starting);
+}
+
+#[test]
 fn a_second_choice_keeps_the_first_that_has_not_come_yet() {
     let folder = tempfile::tempdir().unwrap();
     let path = scan(folder.path());

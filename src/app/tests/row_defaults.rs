@@ -258,3 +258,18 @@ fn menus_mark_how_many_views_are_in_sight() {
     update(&mut model, ViewAction::Enlarge(2).into());
     assert_eq!(marked(&model), [true, false, false], "a view is alone");
 }
+
+#[test]
+fn what_follows_from_an_impossible_number_is_not_known() {
+    let mut bench = Bench::new();
+    let depth = |bench: &Bench| bench.field(Role::SpinButton, "Total depth").accesskit_node().numeric_value();
+    let is_known = |bench: &Bench| depth(bench).is_some_and(|depth| (50.0..70.0).contains(&depth));
+    assert!(is_known(&bench), "{:?}", depth(&bench));
+    bench.type_number("Crown angle", "120");
+    bench.harness.run_steps(2);
+    assert!(bench.editor().model.document.fault().is_some());
+    assert!(!depth(&bench).is_some_and(f64::is_finite), "{:?}", depth(&bench));
+    bench.type_number("Crown angle", "34");
+    bench.harness.run_steps(2);
+    assert!(is_known(&bench), "{:?}", depth(&bench));
+}

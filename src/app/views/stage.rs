@@ -8,7 +8,8 @@ use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::ordering::Seen;
 use crate::app::model::workspace::PaneLayout;
 use crate::app::trouble_bar;
-use egui::{CentralPanel, Key, Rect, Ui, UiBuilder, pos2};
+use egui::{CentralPanel, Key, Rect, RichText, Ui, UiBuilder, pos2};
+use std::path::Path;
 
 /// The gap between views, points.
 const GAP: f32 = 6.0;
@@ -41,6 +42,15 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ui: &mu
     });
     tools.attention.report(model, actions);
     seen
+}
+
+/// Draws an empty stage, which says what file is being read.
+pub fn show_reading(file: &Path, ui: &mut Ui) {
+    let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
+    let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
+    CentralPanel::no_frame().frame(frame).show(ui, |ui| {
+        ui.centered_and_justified(|ui| ui.label(RichText::new(format!("reading {name}…")).weak()));
+    });
 }
 
 fn part(whole: Rect, layout: PaneLayout, place: usize) -> Rect {

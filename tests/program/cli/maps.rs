@@ -15,12 +15,12 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
         "refraction-map cube.toml --size 48x32 --samples 1 --wavelengths 2 --tilt 20 --background photo.png";
     let printed = desk.done(&format!("{line} --out maps --format tiled,png16,exr,page,preview"));
     let endings = [".png", "-16bit.png", ".exr", "-diffuse.png", ".html", "-preview.png"];
-    let expected = endings.map(|ending| format!("maps/cube-tilt-20-refraction{ending}"));
+    let expected = endings.map(|ending| format!("maps/cube-photo-tilt-20-refraction{ending}"));
     assert_eq!(printed.lines().collect::<Vec<_>>(), expected);
     assert_eq!(files(&desk.at("maps")).len(), 6, "nothing else is left");
     let maps = [Coding::Tiles, Coding::Sixteen, Coding::Float].map(|coding| {
         let folder = desk.at("maps");
-        read(&paths(&folder, "cube-tilt-20", 1, coding), &diffuse_path(&folder, "cube-tilt-20"))
+        read(&paths(&folder, "cube-photo-tilt-20", 1, coding), &diffuse_path(&folder, "cube-photo-tilt-20"))
     });
     for k in 0..48 * 32 {
         let [tiles, sixteen, float] = maps.each_ref().map(|map| map.bands[0].places[k]);
@@ -30,7 +30,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
             near(sixteen.u.into(), float.u.into(), 1e-5, "16 bits");
         }
     }
-    let (size, _, description) = png(&desk.at("maps/cube-tilt-20-refraction-preview.png"));
+    let (size, _, description) = png(&desk.at("maps/cube-photo-tilt-20-refraction-preview.png"));
     assert_eq!(size, (48, 32));
     assert!(
         description
@@ -38,13 +38,13 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
         "{description}"
     );
     assert!(description.contains("% of the light comes from the background"), "{description}");
-    let page = desk.read("maps/cube-tilt-20-refraction.html");
+    let page = desk.read("maps/cube-photo-tilt-20-refraction.html");
     assert!(page.contains("<h1>Cube</h1>") && page.contains("data:image/png;base64,"));
     let printed = desk
         .done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --background dots --out dots");
     assert_eq!(printed.lines().count(), 4, "{printed}");
     assert!(
-        desk.read("dots/cube-refraction.html")
+        desk.read("dots/cube-dots-refraction.html")
             .contains("\"background\":{\"name\":\"Dots\",\"picture\":\"data:image/")
     );
     // Each of several bands has its own map; without a photograph there is no preview.
@@ -167,7 +167,10 @@ fn a_map_read_from_a_render_of_the_template_is_the_programs_own_map() {
     let to = "--span 1 --background photo.png --format exr,preview --out";
     desk.done(&format!("refraction-import render.exr --coding gradient {to} foreign"));
     desk.done(&format!("refraction-map {view} --samples 1 --wavelengths 1 {to} own"));
-    let (own, foreign) = (("own", "pill-tilt-12-perspective-6"), ("foreign", "render"));
+    let (own, foreign) = (
+        ("own", "pill-span-1-dark-photo-material-1.5-tilt-12-perspective-6"),
+        ("foreign", "render-photo-span-1"),
+    );
     let places = |(folder, stem): (&str, &str)| {
         let folder = desk.at(folder);
         let map = read(&paths(&folder, stem, 1, Coding::Float), &diffuse_path(&folder, stem));

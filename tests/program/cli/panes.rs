@@ -23,15 +23,16 @@ fn figure(printed: &str, name: &str) -> f64 {
 fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs() {
     let desk = desk();
     let line = "liquid-glass --background photo.png --size 64x48 --pane 40x30+8+6 --samples 2";
-    assert_eq!(desk.done(&format!("{line} --out alone")), "alone/liquid-glass.png\n");
+    assert_eq!(desk.done(&format!("{line} --out alone")), "alone/liquid-glass-photo.png\n");
     // A path that ends in .png is the picture itself.
     assert_eq!(desk.done(&format!("{line} --out alone/pane.png")), "alone/pane.png\n");
     assert_eq!(
         std::fs::read(desk.at("alone/pane.png")).unwrap(),
-        std::fs::read(desk.at("alone/liquid-glass.png")).unwrap()
+        std::fs::read(desk.at("alone/liquid-glass-photo.png")).unwrap()
     );
     let printed = desk.done(&format!("{line} --out all --compare --tint #3060ff40 --frost 50"));
-    let names = ["", "-traced", "-both"].map(|name| format!("all/liquid-glass{name}.png"));
+    let names = ["", "-traced", "-both"]
+        .map(|name| format!("all/liquid-glass-photo-frost-50-tint-3060ff40{name}.png"));
     assert_eq!(printed.lines().take(3).collect::<Vec<_>>(), names);
     assert_eq!(files(&desk.at("all")).len(), 3, "nothing else is left");
     // As drawn, at most (0.015 + 0.008 + 0.012 0.7 + ...) of 30 pixels.
@@ -39,7 +40,7 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     assert!(moved > 0.2 && moved < 1.5, "{printed}");
     assert!(figure(&printed, "traced: background is shifted by") > 0.0, "{printed}");
     assert!(figure(&printed, "mean difference in linear light") > 0.01, "{printed}");
-    let (size, _, description) = png(&desk.at("all/liquid-glass.png"));
+    let (size, _, description) = png(&desk.at(&names[0]));
     assert_eq!(size, (64, 48));
     assert!(
         description.contains("quality high; pane 40x30+8+6, corners 9.0; refraction 100"),
@@ -49,10 +50,10 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
         description.contains("frost 50, light 30 from 90.0,53.1; tint 0.030 0.117 1.000 0.251"),
         "{description}"
     );
-    let (size, _, description) = png(&desk.at("all/liquid-glass-traced.png"));
+    let (size, _, description) = png(&desk.at(&names[1]));
     assert_eq!(size, (64, 48));
     assert!(description.contains("traced by rays, gap 0.02, 12 wavelengths in 2 samples"), "{description}");
-    assert_eq!(png(&desk.at("all/liquid-glass-both.png")).0, (129, 48));
+    assert_eq!(png(&desk.at(&names[2])).0, (129, 48));
     // The bytes are the same on any number of threads.
     for threads in ["1", "2"] {
         let line = format!("{line} --compare --frost 80 --out {threads}");
@@ -66,19 +67,18 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
 fn a_pane_without_strength_is_its_background() {
     let desk = desk();
     let off = "--refraction 0 --depth 0 --dispersion 0 --light 0";
-    desk.done(&format!("liquid-glass --background #336699 --size 32 {off}"));
-    let (size, pixels, _) = png(&desk.at("out/liquid-glass.png"));
+    let made = |options: &str| {
+        let printed = desk.done(&format!("liquid-glass --background #336699 --size 32 {options}"));
+        png(&desk.at(printed.trim()))
+    };
+    let (size, pixels, _) = made(off);
     let own = DVec3::from([0x33, 0x66, 0x99].map(|code: u8| linear_from_encoded(f64::from(code) / 255.0)));
     assert_eq!((size, pixels.len()), ((32, 32), 32 * 32));
     assert!(pixels.iter().all(|p| *p == own));
     // A tint colours light alone, of which there is none.
-    desk.done(&format!("liquid-glass --background #336699 --size 32 {off} --tint #00000080"));
-    assert!(png(&desk.at("out/liquid-glass.png")).1 == pixels);
+    assert!(made(&format!("{off} --tint #00000080")).1 == pixels);
     let lit = off.replace("--light 0", "--light 50");
-    let drawn = |more: &str| {
-        desk.done(&format!("liquid-glass --background #336699 --size 32 {lit} {more}"));
-        png(&desk.at("out/liquid-glass.png")).1
-    };
+    let drawn = |more: &str| made(&format!("{lit} {more}")).1;
     let white = drawn("");
     assert!(white != pixels && drawn("--tint #00000080") != white);
     assert!(drawn("--tint #000000ff") == pixels && drawn("--quality low") == pixels);
@@ -93,17 +93,18 @@ fn a_pane_alone_has_alpha_and_its_times_are_told() {
     let line = "liquid-glass --background photo.png --size 64x48 --pane 40x30+8+6 --light 0";
     let printed = desk.done(&format!("{line} --alone --exr --timing"));
     let lines: Vec<&str> = printed.lines().collect();
-    assert_eq!(lines[..2], ["out/liquid-glass.png", "out/liquid-glass.exr"]);
+    let stem = "out/liquid-glass-photo-light-0";
+    assert_eq!(lines[..2], [format!("{stem}-alone.png"), format!("{stem}-alone.exr")]);
     for name in
         ["shape, once", "dispersion", "frost", "frame, background moves", "high from medium", "high from low"]
     {
         assert!(lines.iter().any(|line| line.starts_with(name)), "{name}: {printed}");
     }
-    let alone = std::fs::read(desk.at("out/liquid-glass.png")).unwrap();
+    let alone = std::fs::read(desk.at(lines[0])).unwrap();
     // The header's colour type is 6: red, green, blue and alpha.
     assert_eq!(alone[25], 6);
     desk.done(line);
-    assert_eq!(std::fs::read(desk.at("out/liquid-glass.png")).unwrap()[25], 2);
+    assert_eq!(std::fs::read(desk.at(format!("{stem}.png"))).unwrap()[25], 2);
 }
 
 #[test]
@@ -112,7 +113,7 @@ fn a_pane_lies_over_patterns_as_it_does_over_photographs() {
     let mut seen = vec![];
     for name in ["page", "grid", "checks", "stripes", "dots", "slit", "sunset", "room", "city"] {
         desk.done(&format!("liquid-glass --background {name} --size 64x48 --out {name}"));
-        let (size, pixels, _) = png(&desk.at(format!("{name}/liquid-glass.png")));
+        let (size, pixels, _) = png(&desk.at(format!("{name}/liquid-glass-{name}.png")));
         assert_eq!(size, (64, 48));
         assert!(!seen.contains(&pixels), "{name} is another pattern's");
         seen.push(pixels);

@@ -173,7 +173,11 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
             "spin modern-ideal --motion {motion} --frames 3 --seconds 0.6 --size 40 --wavelengths 2 --samples 1 --eye-tilt 10 --out {motion}"
         );
         let line = if motion == "wobble" { line.replace("--eye-tilt 10", "") } else { line };
-        let name = if motion == "wobble" { "modern-ideal-spin" } else { "modern-ideal-eye-tilt-10-spin" };
+        let name = match motion {
+            "turn" => "modern-ideal-eye-tilt-10-spin",
+            "rock" => "modern-ideal-motion-rock-eye-tilt-10-spin",
+            _ => "modern-ideal-motion-wobble-spin",
+        };
         assert_eq!(desk.done(&line).trim(), format!("{motion}/{name}.png"));
         let frames = files(&desk.at(format!("{motion}/{name}")));
         assert!(frames.keys().eq(["0001.png", "0002.png", "0003.png"]), "{:?}", frames.keys());
@@ -181,7 +185,7 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
         if motion == "turn" {
             // The stones turn, and not only the light: the drawn facets of dark frames differ.
             desk.done("spin modern-ideal --frames 2 --size 32 --wavelengths 1 --samples 1 --exposure -40 --bloom 0 --overlay facets --out dark");
-            let dark = files(&desk.at("dark/modern-ideal-spin"));
+            let dark = files(&desk.at("dark/modern-ideal-exposure--40-bloom-0-overlay-facets-spin"));
             assert!(dark["0001.png"] != dark["0002.png"]);
         }
         let (moving, animation) = frame(&desk.at(format!("{motion}/{name}.png")));

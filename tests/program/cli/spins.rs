@@ -49,8 +49,8 @@ fn gif(path: &Path) -> (Vec<Vec<u8>>, u16) {
 #[test]
 fn frames_in_a_scope_are_the_pictures_that_export_writes() {
     let desk = Desk::new();
-    assert_eq!(desk.done(ROCKING).trim(), "out/tolkowsky-aset-spin.png");
-    let (size, frames, description) = apng(&desk.at("out/tolkowsky-aset-spin.png"));
+    assert_eq!(desk.done(ROCKING).trim(), "out/tolkowsky-motion-rock-swing-20-aset-spin.png");
+    let (size, frames, description) = apng(&desk.at("out/tolkowsky-motion-rock-swing-20-aset-spin.png"));
     assert_eq!((size, frames.len()), ([64, 64], 8));
     let expected = "Tolkowsky 1919: aset, rocking 20 degrees to and fro toward 0, table side, 8 frames; table side; index 2.41";
     assert!(description.starts_with(expected), "{description}");
@@ -60,11 +60,12 @@ fn frames_in_a_scope_are_the_pictures_that_export_writes() {
         desk.done(&format!("export tolkowsky --views aset --size 64 --format png {tilt} --out still"));
         let still = apng(&desk.at(format!("still/tolkowsky{suffix}-aset.png")));
         assert!(still.1[0] == frames[number], "{tilt}");
-        let single = apng(&desk.at(format!("out/tolkowsky-aset-spin/{:04}.png", number + 1)));
+        let single =
+            apng(&desk.at(format!("out/tolkowsky-motion-rock-swing-20-aset-spin/{:04}.png", number + 1)));
         assert!(single == still, "{tilt}");
     }
     assert!(frames[1] != frames[2] && frames[2] != frames[6]);
-    assert_eq!(files(&desk.at("out/tolkowsky-aset-spin")).len(), 8);
+    assert_eq!(files(&desk.at("out/tolkowsky-motion-rock-swing-20-aset-spin")).len(), 8);
     // Hearts are seen through the pavilion, and a stone that turns comes round as its symmetry says.
     desk.done("spin tolkowsky --scope hearts --frames 16 --size 48 --out hearts.png");
     let (_, frames, description) = apng(&desk.at("hearts.png"));

@@ -53,7 +53,7 @@ fn a_dash_is_standard_output_where_one_file_is_written_and_refused_where_several
         ("render cube.toml --size 16 --samples 1 --wavelengths 1 --out", "a.png"),
         ("convert tolkowsky --format asc", "a.asc"),
         ("convert tolkowsky --format glb", "a.glb"),
-        ("liquid-glass --background dots --size 64 --out", "liquid-glass/liquid-glass.png"),
+        ("liquid-glass --background dots --size 64 --out", "liquid-glass/liquid-glass-dots.png"),
         ("export cube.toml --views profile --format svg --out", "svg/cube-profile.svg"),
         ("export cube.toml --format exr --views aset --size 32 --out", "exr/cube-aset.exr"),
         ("export cube.toml --format png --views aset --size 32 --out", "png/cube-aset.png"),

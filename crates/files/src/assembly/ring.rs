@@ -42,18 +42,9 @@ pub(super) fn ring<'a>(
     (material, size): (Option<&MaterialRef>, Option<Size>),
 ) -> Result<RingParts<'a>, Failure> {
     let refused = |message: String| at_ring(file, entry.line, &message);
-    let gem = |cut: &Option<String>, own: &Option<MaterialRef>, size: Option<Size>| {
-        let specimen = cut.as_ref().and_then(|cut| specimens.get(&(cut.clone(), MeshPart::Found)));
-        specimen.map(|specimen| Gem::new(specimen, material, own.as_ref(), size)).transpose().map_err(refused)
-    };
-    let across = Some(Size::Millimetres(entry.ring.small_diameter_mm));
-    let main = gem(&entry.stone, &entry.material, size.or(entry.size))?;
-    let small = gem(&entry.small_stone, &entry.small_material, across)?;
-    let set = |key: &str, gem: &Option<Gem<'a>>| {
-        let set = gem.as_ref().map(Gem::set).transpose();
-        set.map_err(|error| refused(format!("{key}: {error}")))
-    };
-    let (stone, small_stone) = (set("stone", &main)?, set("small_stone", &small)?);
+    let RingGems { main, small } = RingGems::of(entry, specimens, material, size).map_err(refused)?;
+    let (stone, small_stone) = (set("stone", &main), set("small_stone", &small));
+    let (stone, small_stone) = (stone.map_err(refused)?, small_stone.map_err(refused)?);
     let mounting = entry.ring.mounting(stone.as_ref(), small_stone.as_ref());
     let mounting = mounting.map_err(|error| refused(error.to_string()))?;
     let pose = Pose { at: entry.at_mm, turn: entry.turned(), scale: 1.0 };
@@ -74,6 +65,51 @@ pub(super) fn ring<'a>(
     let (metal, roughness) = (entry.metal, entry.roughness);
     let metal = MetalInstance { mesh: Arc::new(mesh), pose, metal, roughness, label };
     Ok(RingParts { stones, metal, mounting })
+}
+
+/// Returns the number of stones that the ring of a scene holds, without making its metal.
+pub(super) fn stone_count(
+    file: &Path,
+    entry: &RingEntry,
+    specimens: &BTreeMap<CutKey, Arc<Specimen>>,
+) -> Result<usize, Failure> {
+    let count = || {
+        let RingGems { main, small } = RingGems::of(entry, specimens, None, None)?;
+        let (stone, small_stone) = (set("stone", &main)?, set("small_stone", &small)?);
+        entry.ring.stone_count(stone.as_ref(), small_stone.as_ref()).map_err(|error| error.to_string())
+    };
+    count().map_err(|message| at_ring(file, entry.line, &message))
+}
+
+/// Returns a stone in the form in which rings take it; the error names its key in the ring's table.
+fn set<'a>(key: &str, gem: &Option<Gem<'a>>) -> Result<Option<SetStone<'a>>, String> {
+    gem.as_ref().map(Gem::set).transpose().map_err(|error| format!("{key}: {error}"))
+}
+
+/// The stones of a ring, of which its style may have none.
+struct RingGems<'a> {
+    main: Option<Gem<'a>>,
+    small: Option<Gem<'a>>,
+}
+
+impl<'a> RingGems<'a> {
+    /// Takes the stones of a ring from its cuts. `material` replaces that of every stone, and `size` that of the main
+    /// stone.
+    fn of(
+        entry: &RingEntry,
+        specimens: &'a BTreeMap<CutKey, Arc<Specimen>>,
+        material: Option<&MaterialRef>,
+        size: Option<Size>,
+    ) -> Result<Self, String> {
+        let gem = |cut: &Option<String>, own: &Option<MaterialRef>, size: Option<Size>| {
+            let specimen = cut.as_ref().and_then(|cut| specimens.get(&(cut.clone(), MeshPart::Found)));
+            specimen.map(|specimen| Gem::new(specimen, material, own.as_ref(), size)).transpose()
+        };
+        let across = Some(Size::Millimetres(entry.ring.small_diameter_mm));
+        let main = gem(&entry.stone, &entry.material, size.or(entry.size))?;
+        let small = gem(&entry.small_stone, &entry.small_material, across)?;
+        Ok(Self { main, small })
+    }
 }
 
 impl<'a> Gem<'a> {
@@ -106,6 +142,7 @@ mod tests {
     use super::super::Assembly;
     use super::*;
     use crate::mesh_options::MeshOptions;
+    use crate::scene_file;
     use glam::DVec3;
 
     #[test]
@@ -116,6 +153,8 @@ mod tests {
             let ring = Assembly::load(Path::new(name), None, None, &MeshOptions::default()).unwrap();
             assert_eq!((ring.scene.instances.len(), ring.scene.metals.len()), (stones, 1), "{name}");
             assert_eq!(ring.places.len(), stones, "{name}");
+            let file = scene_file::parse(crate::library::scene(name).unwrap(), name, None).unwrap();
+            assert_eq!(super::super::stone_count(Path::new(name), &file).unwrap(), stones, "{name}");
             let metal = &ring.scene.metals[0];
             // The finger's hole keeps its size in the world's unit.
             let pose = metal.pose;

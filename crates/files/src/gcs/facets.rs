@@ -6,6 +6,7 @@ use crate::numbers::Token;
 use brillianteer_base::Fault;
 use brillianteer_cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
 use brillianteer_math::Plane;
+use brillianteer_math::rounded;
 use glam::DVec3;
 use roxmltree::Node;
 
@@ -262,14 +263,14 @@ impl Apart {
         let mut differences = Vec::new();
         if self.corners > TOLD_APART {
             differences.push(format!(
-                "its corners differ from its depth by up to {:.1e}; the depth is used",
-                self.corners
+                "its corners differ from its depth by up to {}; the depth is used",
+                rounded(self.corners, 6)
             ));
         }
         if self.angle > TOLD_APART {
             differences.push(format!(
-                "its normals differ from its angle by up to {:.1e}°; the normals are used",
-                self.angle
+                "its normals differ from its angle by up to {}°; the normals are used",
+                rounded(self.angle, 6)
             ));
         }
         (!differences.is_empty()).then(|| format!("tier '{name:.40}': {}", differences.join("; ")))

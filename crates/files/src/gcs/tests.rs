@@ -199,12 +199,12 @@ fn what_is_odd_is_told_with_its_line() {
         (
             "angle=\"45\"",
             "angle=\"45.1\"",
-            "line 3: tier 'C': its normals differ from its angle by up to 1.0e-1°; the normals are used",
+            "line 3: tier 'C': its normals differ from its angle by up to 0.1°; the normals are used",
         ),
         (
             "index_angle=\"90\"/>",
             "><vertex x=\"1\" y=\"0\" z=\"0\"/></facet>",
-            "its corners differ from its depth by up to 7.1e-3",
+            "its corners differ from its depth by up to 0.0071",
         ),
         ("<render", "<gift/><render", "line 12: <gift> is not known here"),
         (

@@ -10,6 +10,7 @@ use brillianteer_cut::from_mesh::{
     Evening, FacetError, FromMesh, TablePart, Up, UpFound, directions, find_up, from_mesh,
 };
 use brillianteer_cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
+use brillianteer_math::at_most;
 use brillianteer_math::faceting::{
     Change, Faceted, NotFaceted, SurfaceKind, Unfaceted, faceted_hull, facets, hull_facets,
 };
@@ -142,10 +143,11 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     format!(
         "the mesh bends inward at {} edges, by up to {sharpest:.1} degrees, and is read as the convex stone that it \
          stands for: the volume changes by {} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
-         below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; read as \
+         below the stone's facets, and corners within {} girdle radii of a plane share a facet; read as \
          triangles the mesh would stay as it is",
         change.bent,
-        signed(volume, 3)
+        signed(volume, 3),
+        at_most(tolerance)
     )
 }
 
@@ -155,8 +157,9 @@ fn known_to(errors: &[FacetError]) -> Option<String> {
     slopes.sort_by(f64::total_cmp);
     let (least, most) = (slopes.first()?, slopes.last()?);
     let median = slopes[slopes.len() / 2];
+    let [least, median, most] = [*least, median, *most].map(at_most);
     Some(format!(
-        "its noise leaves the slopes with standard errors of {least:.1e} to {most:.1e} degrees, in the median {median:.1e}"
+        "its noise leaves the slopes with standard errors of {least} to {most} degrees, in the median {median} degrees"
     ))
 }
 
@@ -261,7 +264,8 @@ impl File {
         facets.iter_mut().for_each(|(_, plane)| plane.offset *= rescaled);
         let (count, deviation) = (facets.len(), made.deviation * rescaled);
         remarks.notes.push(format!(
-            "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
+            "{count} facets were found; no corner lies farther from them than {} girdle radii",
+            at_most(deviation)
         ));
         remarks.notes.extend(known_to(&errors));
         remarks.warnings.extend(bent(&errors));
@@ -364,7 +368,7 @@ fn told_of(mended: &Mended) -> Vec<String> {
     let turned = if mended.parts.iter().any(|part| part.within.is_some()) { 0 } else { mending.turned };
     let count = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
     let crack = (mending.crack > 0.0)
-        .then(|| format!("cracks of up to {:.1e} of its unit were closed", mending.crack));
+        .then(|| format!("cracks of up to {} of its unit were closed", at_most(mending.crack)));
     [
         count(mending.copies, "copies of triangles are left out"),
         count(mending.degenerate, "triangles without an area are left out"),

@@ -4,6 +4,7 @@ mod exits;
 mod face;
 
 use super::{MeasureName, MeasureSettings};
+use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_math::Polytope;
 use brillianteer_trace::beam::{Beam, BeamPartials, Beams, PlaneDerivatives};
 use exits::CountedExits;
@@ -44,25 +45,40 @@ impl MeasureName {
     /// crosses a border makes a measure jump, and a facet through which light ceases to leave makes a kink. Extinction jumps
     /// also where another exit becomes the strongest of a cell. Neither is in the derivative. Their formulas are in
     /// docs/optics.md, "Derivatives".
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
     pub fn derivatives(
         &self,
         beams: &Beams,
         polytope: &Polytope,
         settings: &MeasureSettings,
-    ) -> Option<MeasureDerivatives> {
-        let BeamSum { value, partials, per_fan } = match self {
+        watch: Watch,
+    ) -> Result<Option<MeasureDerivatives>, Stopped> {
+        go_on(watch, 0.0)?;
+        let Some(BeamSum { value, partials, per_fan }) = self.sum(beams, polytope, settings) else {
+            return Ok(None);
+        };
+        // The fans take their own pass over the beams, beside two of the planes.
+        let share = if per_fan.is_empty() { 1.0 } else { 2.0 / 3.0 };
+        let mut derivatives = beams.derivatives(polytope, &partials, &|done| watch(share * done))?;
+        if !per_fan.is_empty() {
+            let rest = |done: f64| watch(share + (1.0 - share) * done);
+            derivatives.add(&beams.fan_derivatives(polytope, settings.indices, &per_fan, &rest)?);
+        }
+        Ok(Some(MeasureDerivatives { value, derivatives: beams.over_copies(polytope, derivatives) }))
+    }
+
+    /// Returns this measure as a function of the beams; `None` where it has no derivatives.
+    fn sum(&self, beams: &Beams, polytope: &Polytope, settings: &MeasureSettings) -> Option<BeamSum> {
+        Some(match self {
             Self::Absorbed => exits::absorbed(beams),
             Self::Extinction => face::extinction(beams, settings.head_deg),
             Self::Contrast => face::contrast(beams, settings.head_deg),
             other => {
                 CountedExits::of(other, settings.head_deg, settings.blur_deg)?.sum(beams, polytope, settings)
             }
-        };
-        let mut derivatives = beams.derivatives(polytope, &partials);
-        if !per_fan.is_empty() {
-            derivatives.add(&beams.fan_derivatives(polytope, settings.indices, &per_fan));
-        }
-        Some(MeasureDerivatives { value, derivatives: beams.over_copies(polytope, derivatives) })
+        })
     }
 }
 
@@ -140,7 +156,7 @@ mod tests {
     }
 
     fn values(beams: &Beams, stone: &Polytope, settings: &MeasureSettings) -> [f64; COUNT] {
-        names().map(|name| name.derivatives(beams, stone, settings).unwrap().value)
+        names().map(|name| name.derivatives(beams, stone, settings, &unwatched).unwrap().unwrap().value)
     }
 
     /// Returns the largest difference of two lists of derivatives by planes; of those by normals, only the component
@@ -167,8 +183,9 @@ mod tests {
             });
             assert!(parts.symmetry.order() > 1 && whole.symmetry.order() == 1);
             for name in names() {
-                let [whole, parts] = [&whole, &parts]
-                    .map(|beams| name.derivatives(beams, &stone, &settings).unwrap().derivatives);
+                let [whole, parts] = [&whole, &parts].map(|beams| {
+                    name.derivatives(beams, &stone, &settings, &unwatched).unwrap().unwrap().derivatives
+                });
                 let none = PlaneDerivatives {
                     normals: vec![DVec3::ZERO; stone.facets().len()],
                     offsets: vec![0.0; stone.facets().len()],
@@ -180,6 +197,30 @@ mod tests {
                 turned.offsets.rotate_left(1);
                 let off = apart(&stone, &whole, &turned);
                 assert!(size == 0.0 || off > 1e-4 * size, "{name}: the comparison cannot fail");
+            }
+        }
+    }
+
+    #[test]
+    fn the_derivatives_of_one_measure_stop_where_their_watch_asks_to() {
+        let (stone, beams) = traced(&brilliant([0.0; 4]), Medium::clear(2.42), 0.0);
+        let settings = MeasureSettings::usual([2.4, 2.45]);
+        for name in names() {
+            let calls = std::sync::atomic::AtomicUsize::new(0);
+            let counted = |done: f64| {
+                assert!((0.0..=1.0).contains(&done), "{name}: {done}");
+                calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                std::ops::ControlFlow::Continue(())
+            };
+            name.derivatives(&beams, &stone, &settings, &counted).unwrap().unwrap();
+            let calls = calls.into_inner();
+            assert!(calls > 2 * beams.len() / 2048, "{name}: {calls} calls");
+            for last in [0.0, 0.3, 0.9] {
+                let until = |done: f64| match done < last {
+                    true => std::ops::ControlFlow::Continue(()),
+                    false => std::ops::ControlFlow::Break(()),
+                };
+                assert_eq!(name.derivatives(&beams, &stone, &settings, &until), Err(Stopped), "{name}");
             }
         }
     }
@@ -205,7 +246,8 @@ mod tests {
                 |index: f64| MeasureSettings { indices: [index - 0.02, index + 0.03], ..usual.clone() };
             let settings = at_index(index);
             let (stone, beams) = traced(&brilliant(at), medium(index), tilt);
-            let own = names().map(|name| name.derivatives(&beams, &stone, &settings).unwrap());
+            let own =
+                names().map(|name| name.derivatives(&beams, &stone, &settings, &unwatched).unwrap().unwrap());
             let measures = LightMeasures::of(&beams, &stone, &settings, &unwatched).unwrap();
             assert_eq!(own[2].value.to_bits(), measures.leakage.least.to_bits());
             assert!((own[0].value - measures.domes[0].inside.least).abs() < 1e-14);

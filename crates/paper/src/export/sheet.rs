@@ -114,11 +114,7 @@ impl ScopeSheet<'_> {
         let Viewing { medium, polarised, wavelength_nm, specimen, .. } = viewing;
         let material = &specimen.material;
         let light = match wavelength_nm {
-            // A material of which only the index is known has no other name.
-            Some(nm) if material.name.starts_with("index ") => {
-                format!("index {:.4} at {nm} nm", medium.index)
-            }
-            Some(nm) => format!("{}, index {:.4} at {nm} nm", material.name, medium.index),
+            Some(nm) => format!("{} at {nm} nm", material.with_index(medium.index)),
             None => format!("index {}", rounded(medium.index, 4)),
         };
         let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };

@@ -66,7 +66,8 @@ pub(super) fn measured(stone: &ReportedStone) -> Vec<[String; 2]> {
 /// Returns the tiers of a convex stone with the spread of their facets; `None` of another solid.
 pub(super) fn tiers(stone: &ReportedStone) -> Option<ReportTable> {
     let convex = stone.viewing.specimen.stone().ok()?;
-    let report = ProportionReport::of(&convex.polytope, convex.names());
+    let report =
+        ProportionReport::of_cut(&stone.viewing.specimen.design.cut, &convex.polytope, convex.names());
     let range = |spread: Spread, digits: usize| {
         let [least, most] = [spread.least, spread.most].map(|value| fixed(value, digits));
         if least == most { "–".to_owned() } else { format!("{least} to {most}") }

@@ -65,6 +65,11 @@ pub(super) fn halo(
     Ok(stones)
 }
 
+/// Returns the number of the small stones of a halo.
+pub(super) fn halo_count(ring: &Ring, stone: &SetStone, small: &SetStone) -> Result<usize, RingError> {
+    Ok(circle(ring, stone, sizes(small)?)?.count)
+}
+
 /// Returns the circle of small stones that leaves the main stone's girdle and its prongs free and has the narrowest gaps. The
 /// prongs stand in the gaps between small stones, whose number is a multiple of theirs.
 fn circle(ring: &Ring, stone: &SetStone, sizes: SmallSizes) -> Result<Circle, RingError> {

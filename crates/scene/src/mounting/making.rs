@@ -30,6 +30,26 @@ impl Ring {
         Ok(mounting)
     }
 
+    /// Returns the number of stones that the ring holds: that of the seats of [`mounting`](Self::mounting), without making the
+    /// metal. `stone` and `small` are as there.
+    ///
+    /// # Errors
+    /// Fails where a number is out of its range, and where stones are missing or too many. Whether the metal fits is not
+    /// examined.
+    pub fn stone_count(
+        &self,
+        stone: Option<&SetStone>,
+        small: Option<&SetStone>,
+    ) -> Result<usize, RingError> {
+        self.check(stone.is_some(), small.is_some())?;
+        match (stone, small) {
+            (None, None) => Ok(0),
+            (Some(_), None) => Ok(1),
+            (Some(stone), Some(small)) => Ok(1 + halo::halo_count(self, stone, small)?),
+            (None, Some(small)) => row::eternity_count(self, small),
+        }
+    }
+
     /// Checks the numbers, and whether exactly the stones are given that the style holds.
     ///
     /// # Errors

@@ -55,6 +55,31 @@ pub(super) fn check_count(count: usize) -> Result<(), RingError> {
     if count > most { Err(RingError::TooMany { count, most }) } else { Ok(()) }
 }
 
+/// The circle of the stones of an eternity band.
+struct BandCircle {
+    /// The radius of the circle, in mm.
+    around: f64,
+    /// The radius at which neighbours are nearest, in mm.
+    nearest: f64,
+    /// The number of stones.
+    count: usize,
+}
+
+fn band_circle(ring: &Ring, sizes: SmallSizes) -> Result<BandCircle, RingError> {
+    let around = ring.outer() + ring.culet_gap_mm - sizes.low;
+    // Neighbours lean apart, so their girdles are nearest at the lower edge.
+    let nearest = around + sizes.girdle;
+    let half = (sizes.radius + 0.5 * ring.small_gap_mm) / nearest;
+    let count = (PI / half.atan()).floor() as usize;
+    check_count(count)?;
+    Ok(BandCircle { around, nearest, count })
+}
+
+/// Returns the number of the small stones of an eternity band.
+pub(super) fn eternity_count(ring: &Ring, small: &SetStone) -> Result<usize, RingError> {
+    Ok(band_circle(ring, sizes(small)?)?.count)
+}
+
 /// Makes an eternity band: small stones all around the band; returns them in their places.
 pub(super) fn eternity(
     ring: &Ring,
@@ -62,12 +87,7 @@ pub(super) fn eternity(
     mounting: &mut Mounting,
 ) -> Result<Vec<MountedStone>, RingError> {
     let sizes = sizes(small)?;
-    let around = ring.outer() + ring.culet_gap_mm - sizes.low;
-    // Neighbours lean apart, so their girdles are nearest at the lower edge.
-    let nearest = around + sizes.girdle;
-    let half = (sizes.radius + 0.5 * ring.small_gap_mm) / nearest;
-    let count = (PI / half.atan()).floor() as usize;
-    check_count(count)?;
+    let BandCircle { around, nearest, count } = band_circle(ring, sizes)?;
     let gap = 2.0 * (nearest * (PI / count as f64).tan() - sizes.radius) * (PI / count as f64).cos();
     mounting.small_gap_mm = Some(gap);
     let turns: Vec<f64> = (0..count).map(|k| TAU * k as f64 / count as f64).collect();

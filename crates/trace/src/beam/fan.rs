@@ -127,7 +127,7 @@ mod tests {
         };
         let per: Vec<f64> = fans.iter().map(|&fan| if is_even(fan) { 1.0 } else { 0.0 }).collect();
         assert!(per.iter().sum::<f64>() > 300.0);
-        let found = beams.fan_derivatives(&stone, [2.40, 2.44], &per);
+        let found = beams.fan_derivatives(&stone, [2.40, 2.44], &per, &brillianteer_base::unwatched).unwrap();
         let difference = |step: f64, of: &dyn Fn(f64) -> f64| {
             (8.0 * (of(step) - of(-step)) - (of(2.0 * step) - of(-2.0 * step))) / (12.0 * step)
         };

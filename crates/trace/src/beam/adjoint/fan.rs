@@ -3,6 +3,8 @@
 use super::super::fan::{Pair, leaving};
 use super::super::tree::Beams;
 use super::PlaneDerivatives;
+use super::WATCHED;
+use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_math::Polytope;
 use brillianteer_optics::cos_transmitted;
 use glam::DVec3;
@@ -11,17 +13,24 @@ impl Beams {
     /// Returns how a sum over the [`fans`](Self::fans) of these beams changes with the planes of all facets of `polytope`,
     /// which must be the one that was traced, and with both indices if they change alike. `per_fan` is the change of the sum
     /// per radian of each beam's fan; it must be 0 where the fan is π, because light of one index is totally reflected there.
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
     pub fn fan_derivatives(
         &self,
         polytope: &Polytope,
         indices: [f64; 2],
         per_fan: &[f64],
-    ) -> PlaneDerivatives {
+        watch: Watch,
+    ) -> Result<PlaneDerivatives, Stopped> {
         let facets = polytope.facets();
         let onward = self.onward_pairs(polytope, indices);
         let mut per_onward: Vec<Pair> = vec![[DVec3::ZERO; 2]; self.len()];
         let mut found = PlaneDerivatives::none(facets.len());
         for id in (0..self.len() as u32).rev() {
+            if id.is_multiple_of(WATCHED) {
+                go_on(watch, 1.0 - f64::from(id) / self.len() as f64)?;
+            }
             let (node, k) = (&self.nodes[id], id as usize);
             let facet = node.facet as usize;
             let normal = facets[facet].plane.normal;
@@ -48,7 +57,7 @@ impl Beams {
                 per_onward[node.parent as usize][i] += per_ray;
             }
         }
-        found
+        Ok(found)
     }
 
     /// Returns the changes per direction of both exits; `None` where the fan does not count or does not open.

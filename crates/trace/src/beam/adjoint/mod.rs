@@ -15,9 +15,13 @@ mod pass;
 mod step;
 
 use super::tree::Beams;
+use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::Polytope;
 use glam::DVec3;
 use pass::ReversePass;
+
+/// The number of beams after which a pass over beams calls its watch again: far below a millisecond of work.
+const WATCHED: u32 = 1024;
 
 /// The derivatives of a sum by the results of each beam, from which [`Beams::derivatives`] starts. Each list has one
 /// entry for each beam.
@@ -92,8 +96,17 @@ impl Beams {
     /// order times as much where the planes change and keep the symmetry; [`over_copies`](Self::over_copies) finds the
     /// derivatives by single planes. The coefficients of absorption are
     /// held constant.
-    pub fn derivatives(&self, polytope: &Polytope, partials: &BeamPartials) -> PlaneDerivatives {
-        ReversePass::new(self, polytope).run(partials)
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
+    pub fn derivatives(
+        &self,
+        polytope: &Polytope,
+        partials: &BeamPartials,
+        watch: Watch,
+    ) -> Result<PlaneDerivatives, Stopped> {
+        let pass = ReversePass::new(self, polytope, &|done| watch(0.5 * done))?;
+        pass.run(partials, &|done| watch(0.5 + 0.5 * done))
     }
 }
 
@@ -101,6 +114,7 @@ impl Beams {
 mod tests {
     use super::super::{BeamOptions, grow::trace_bounces};
     use super::*;
+    use brillianteer_base::unwatched;
     use brillianteer_cut::TOLKOWSKY;
     use brillianteer_math::Plane;
     use brillianteer_scene::{Medium, View};
@@ -178,7 +192,7 @@ mod tests {
                 })
                 .collect();
             let (_, beams, stone) = case.sum(&planes, 2.4);
-            let found = beams.derivatives(&stone, &partials(&beams));
+            let found = beams.derivatives(&stone, &partials(&beams), &unwatched).unwrap();
             assert!(beams.len() > 3000, "{}", beams.len());
             let by_index = difference(1e-5, |h| case.sum(&planes, 2.4 + h).0);
             assert!((found.index / by_index - 1.0).abs() < 1e-6, "{} is not {by_index}", found.index);

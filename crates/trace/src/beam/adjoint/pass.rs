@@ -1,8 +1,10 @@
 //! The pass over all beams, from the last to the first, that gathers the derivatives of one sum.
 
 use super::super::tree::{BeamNode, Beams, NO_EXIT, ROOT};
+use super::WATCHED;
 use super::step::{BeamState, LandingStep, StateAdjoint};
 use super::{BeamPartials, PlaneDerivatives};
+use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_math::{Affine, Moments, Polytope, moments_along_edge, moments_of_decay};
 use glam::{DVec2, DVec3};
 
@@ -38,7 +40,11 @@ pub(super) struct ReversePass<'a> {
 }
 
 impl<'a> ReversePass<'a> {
-    pub fn new(beams: &'a Beams, polytope: &'a Polytope) -> Self {
+    /// Prepares the pass; `watch` sees its own part of the work, 0 to 1.
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
+    pub fn new(beams: &'a Beams, polytope: &'a Polytope, watch: Watch) -> Result<Self, Stopped> {
         let corners = beams.corners.len();
         let mut pass = Self {
             beams,
@@ -51,6 +57,9 @@ impl<'a> ReversePass<'a> {
             found: PlaneDerivatives::none(polytope.facets().len()),
         };
         for id in 0..beams.len() as u32 {
+            if id.is_multiple_of(WATCHED) {
+                go_on(watch, f64::from(id) / beams.len() as f64)?;
+            }
             let node = &beams.nodes[id];
             let plane = polytope.facets()[node.facet as usize].plane;
             let state = match node.parent {
@@ -62,15 +71,22 @@ impl<'a> ReversePass<'a> {
                 pass.find_lines(id);
             }
         }
-        pass
+        Ok(pass)
     }
 
     /// Follows the changes of a sum back to the planes and to the index.
-    pub fn run(mut self, partials: &BeamPartials) -> PlaneDerivatives {
-        for id in (0..self.beams.len() as u32).rev() {
+    ///
+    /// # Errors
+    /// Fails where `watch` asks to stop.
+    pub fn run(mut self, partials: &BeamPartials, watch: Watch) -> Result<PlaneDerivatives, Stopped> {
+        let count = self.beams.len();
+        for id in (0..count as u32).rev() {
+            if id.is_multiple_of(WATCHED) {
+                go_on(watch, 1.0 - f64::from(id) / count as f64)?;
+            }
             self.step(id, partials);
         }
-        self.found
+        Ok(self.found)
     }
 
     /// Returns whether a beam has an outline of its own.
