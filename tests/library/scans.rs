@@ -315,6 +315,51 @@ fn scans_without_corners_on_edges_are_read_with_true_facets_or_refused() {
 }
 
 #[test]
+fn facets_whose_corners_all_lie_on_their_edges_are_found() {
+    // The cut corners of the girdle are less than a side of the triangles wide.
+    let stone = cut("princess");
+    let mut all = Tally::default();
+    for (triangles, noise_um) in [(2_000, 0.3), (2_000, 2.0), (8_000, 1.0)] {
+        let scan = Scan::meshed(triangles, noise_um, 1);
+        let (found, name) = (found(&scan, &stone), format!("{triangles} at {noise_um} um"));
+        all.add(&found, &scan.planes(&stone), &name);
+        assert!(found.faces.iter().all(|face| !face.is_bent), "{name}");
+    }
+    assert!(all.coverage().iter().all(|c| (90.0..99.5).contains(c)), "{:?} of {}", all.coverage(), all.count);
+}
+
+#[test]
+fn facets_without_corners_within_have_standard_errors_and_hidden_ones_are_named() {
+    let mut all = Tally::default();
+    for name in ["emerald", "oval", "pear", "princess"] {
+        let stone = cut(name);
+        let scan = Scan { corners: Corners::Halved(2_000), ..Scan::meshed(0, 1.0, 1) };
+        all.add(&found(&scan, &stone), &scan.planes(&stone), name);
+    }
+    assert!(all.coverage().iter().all(|c| (90.0..99.5).contains(c)), "{:?} of {}", all.coverage(), all.count);
+    let stone = cut("tolkowsky");
+    for (triangles, noise_um, seed) in [(2_000, 2.0, 1), (2_000, 2.0, 2), (2_000, 3.0, 1), (4_000, 2.0, 1)] {
+        let corners =
+            if triangles == 2_000 { Corners::Halved(triangles) } else { Corners::Meshed(triangles) };
+        let scan = Scan { corners, ..Scan::meshed(0, noise_um, seed) };
+        let Some(found) = read(&scan, &stone) else { continue };
+        let has_word = found.is_uncertain || found.faces.iter().any(|face| face.is_bent);
+        assert!(has_word || found.faces.len() == stone.len(), "{scan:?}: {}", found.faces.len());
+    }
+}
+
+#[test]
+fn triangles_across_edges_make_no_facets_where_there_is_no_noise() {
+    let scan = |corners| Scan { corners: Corners::Radial(corners), ..Scan::meshed(0, 0.0, 1) };
+    let emerald = cut("emerald");
+    let found = found(&scan(20_000), &emerald);
+    assert_eq!(found.faces.len(), emerald.len());
+    assert!(found.faces.iter().all(|face| face.error.is_some() && !face.is_bent) && !found.is_uncertain);
+    // Too few corners lie on the cut corners of its girdle.
+    assert!(read(&scan(5_000), &cut("princess")).is_none());
+}
+
+#[test]
 fn noise_that_hides_facets_is_no_faceted_stone() {
     let scan = Scan::meshed(4_000, 40.0, 1);
     assert!(read(&scan, &even()).is_none());

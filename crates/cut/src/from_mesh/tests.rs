@@ -262,6 +262,7 @@ fn symmetry_counts_the_same_however_a_stone_lies() {
             deviation: 0.0,
             tolerance: 1e-6,
             change: None,
+            is_uncertain: false,
         };
         aim::evenness(&even::FacetParts::about(&found, DVec3::ZERO), turn * DVec3::Z).even
     };

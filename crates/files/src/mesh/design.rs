@@ -163,6 +163,11 @@ fn known_to(errors: &[FacetError]) -> Option<String> {
     ))
 }
 
+/// The warning about facets that were found in spite of noise, of which too few corners tell.
+const UNCERTAIN: &str = "it is noisy, and too coarse to tell which of the facets that were found are true, and how well they are known: some may \
+                         be parts of one facet or several facets as one, and angles have no standard errors; a scan with less noise or more \
+                         corners would tell";
+
 /// Returns the warning about facets of a scan that may be several; `None` where there are none.
 fn bent(errors: &[FacetError]) -> Option<String> {
     let bent: Vec<&str> =
@@ -268,6 +273,7 @@ impl File {
             at_most(deviation)
         ));
         remarks.notes.extend(known_to(&errors));
+        remarks.warnings.extend(found.is_uncertain.then(|| UNCERTAIN.to_owned()));
         remarks.warnings.extend(bent(&errors));
         remarks.warnings.extend(made.table_part.as_ref().map(divided));
         remarks.warnings.extend(made.lacking.map(lacking));

@@ -9,7 +9,8 @@
 //!    corners are left out, and each triangle is assigned to the facet that it lies on (`settle`);
 //! 4. the hull itself is taken, if the surface is meant to be its hull (`hull`).
 //!
-//! What the last two find in a surface that noise bends is refused where the noise may have made the facets (`noisy`).
+//! What the last two find in a surface that noise bends, or whose corners lie off the facets by more than noise, is refused where noise or
+//! triangles across edges may have made the facets, and else called uncertain (`noisy`).
 //!
 //! Where the solid differs from the surface, `change` measures the differences. Lengths are in the surface's unit;
 //! tolerances are parts of [`Surface::size`].
@@ -35,7 +36,7 @@ pub use deviation::deviation;
 use glam::DVec3;
 use hull::Hull;
 pub use noisy::{MODELLED, Unfaceted};
-use noisy::{is_noisy, is_of_noise};
+use noisy::{Trust, is_noisy, trust};
 pub use plane_error::PlaneError;
 use regions::{NOWHERE, Regions};
 use search::{MOST_FACETS, MatchingSolid, SolidSearch};
@@ -76,6 +77,8 @@ pub struct Faceted {
     /// The differences between the solid and a surface that is not convex itself; `None` for a scan, and for a surface
     /// that is convex up to a thousandth.
     pub change: Option<Change>,
+    /// Whether noise bends the surface, and it has too few corners to tell which of the facets are true, and how well they are known.
+    pub is_uncertain: bool,
 }
 
 /// The kind of solid that a closed surface represents.
@@ -93,9 +96,15 @@ pub fn facets(surface: Surface) -> SurfaceKind {
     let search = SolidSearch::of(&moved);
     let exact = search.exact();
     let is_changed = exact.is_none();
-    let solid = exact.or_else(|| search.meant()).filter(|solid| !is_of_noise(&moved, solid));
-    let Some(solid) = solid else { return SurfaceKind::Concave(surface) };
-    SurfaceKind::Convex(Box::new(faceted(moved, centre, solid, is_changed)))
+    let Some(solid) = exact.or_else(|| search.meant()) else { return SurfaceKind::Concave(surface) };
+    match trust(&moved, &solid) {
+        Trust::OfNoise => SurfaceKind::Concave(surface),
+        trust => {
+            let is_uncertain = trust == Trust::Uncertain;
+            let found = faceted(moved, centre, solid, is_changed);
+            SurfaceKind::Convex(Box::new(Faceted { is_uncertain, ..found }))
+        }
+    }
 }
 
 /// Returns the convex solid around the corners of a closed surface, whatever lies between them.
@@ -155,7 +164,7 @@ fn faceted(surface: Surface, centre: DVec3, solid: MatchingSolid, is_changed: bo
     };
     let faces = polytope.facets().iter().enumerate().map(face).collect();
     let change = is_changed.then(|| Change::of(&surface, &polytope));
-    Faceted { surface, centre, faces, polytope, deviation, tolerance, change }
+    Faceted { surface, centre, faces, polytope, deviation, tolerance, change, is_uncertain: false }
 }
 
 /// Returns the name of each region that is exactly one group of the file.

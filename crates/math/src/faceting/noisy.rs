@@ -21,9 +21,17 @@ const ROUNDING: f64 = 1e-5;
 /// Edges that bend inward by less than this are flat except for rounding, radians.
 const BENT: f64 = 2e-4;
 
-/// A surface of fewer corners than this is read with what facets are found: where a scan was thinned out to a few corners for each
-/// facet, many of them lie within facets as well.
+/// A surface of fewer corners than this is read with what facets are found, with a warning: where a scan was thinned out to a few corners
+/// for each facet, many of them lie within facets as well.
 const FEWEST_OF_NOISE: usize = 1000;
+
+/// The number of standard deviations of the noise up to which corners lie off their facets by noise, and the part of them that may lie
+/// farther off.
+const OUTLIER: f64 = 6.0;
+const UNEXPLAINED: f64 = 0.02;
+
+/// The part of the facets that may have such corners. Facets across the edges of a stone have few corners each.
+const UNEXPLAINED_FACETS: f64 = 0.1;
 
 /// Returns whether noise bends a surface everywhere, as that of a scan: nearly as often inward as outward. A model of few corners, such
 /// as a star, may bend inward as often by intent.
@@ -33,15 +41,49 @@ pub(super) fn is_noisy(surface: &Surface) -> bool {
     surface.vertices.len() >= scan::FEWEST && Change::inward_part(surface, BENT) > INWARD
 }
 
-/// Returns whether a solid that reproduces a noisy surface has facets that noise or triangles across the edges of the stone have
-/// made. Such a surface has many corners within facets, as a scan has, and a model has none there: its corners are where facets
-/// meet. The number of corners for each facet does not tell, for there are the more facets the more of them are false.
-pub(super) fn is_of_noise(surface: &Surface, solid: &MatchingSolid) -> bool {
+/// How far the facets of a solid that reproduces a surface can be trusted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Trust {
+    /// The surface is a scan whose noise is known, a model, or planar except for rounding.
+    Known,
+    /// Noise bends the surface, or corners lie off the facets by more than noise, and there are too few corners to tell which facets
+    /// are true.
+    Uncertain,
+    /// Noise, or triangles across the edges of the stone, have made facets.
+    OfNoise,
+}
+
+/// Returns how far the facets of a solid that reproduces a surface can be trusted.
+///
+/// A scan has many corners within facets, and a model has none there: its corners are where facets meet. The number of corners for each
+/// facet does not tell, for there are the more facets the more of them are false.
+pub(super) fn trust(surface: &Surface, solid: &MatchingSolid) -> Trust {
     let is_rounded = solid.deviation <= ROUNDING * surface.size();
-    if solid.errors.is_some() || is_rounded || surface.vertices.len() < FEWEST_OF_NOISE || !is_noisy(surface)
-    {
-        return false;
+    let is_known = solid.errors.is_some() || is_rounded || surface.vertices.len() < scan::FEWEST;
+    if is_known || !(is_noisy(surface) || is_unexplained(surface, solid)) {
+        Trust::Known
+    } else if surface.vertices.len() >= FEWEST_OF_NOISE && has_corners_within(surface, solid) {
+        Trust::OfNoise
+    } else {
+        Trust::Uncertain
     }
+}
+
+/// Returns whether corners lie off a solid by more than the noise that the flattest parts of the surface show.
+fn is_unexplained(surface: &Surface, solid: &MatchingSolid) -> bool {
+    let Some(noise) = scan::noise(surface) else { return false };
+    let planes: Vec<Plane> = solid.polytope.planes().collect();
+    let lies: Vec<(usize, f64)> = surface.vertices.par_iter().map(|v| outermost(&planes, *v)).collect();
+    let off: Vec<usize> = lies.iter().filter(|(_, d)| d.abs() > OUTLIER * noise).map(|(f, _)| *f).collect();
+    let mut facets = off.clone();
+    facets.sort_unstable();
+    facets.dedup();
+    off.len() as f64 > UNEXPLAINED * lies.len() as f64
+        || facets.len() as f64 > UNEXPLAINED_FACETS * planes.len() as f64
+}
+
+/// Returns whether more corners of a surface lie within the facets of a solid than a model has there.
+fn has_corners_within(surface: &Surface, solid: &MatchingSolid) -> bool {
     let planes: Vec<Plane> = solid.polytope.planes().collect();
     let middle = |t: usize| surface.corners(t).iter().sum::<DVec3>() / 3.0;
     let on: Vec<usize> =

@@ -89,10 +89,11 @@ impl<'a> SolidSearch<'a> {
         let mut failed = vec![];
         let mut tried = |limits| self.gathered(limits).map_err(|found| failed.push((limits, found))).ok();
         let planar = limits.next().and_then(&mut tried);
-        if planar.is_none()
-            && let Some(scan) = scanned(self.surface, MOST_FACETS)
-        {
-            return Some(self.of_scan(scan));
+        if planar.is_none() {
+            let regions = NOISE[1..].iter().filter_map(|noise| self.flat_regions(self.surface, noise * size));
+            if let Some(scan) = scanned(self.surface, MOST_FACETS, regions) {
+                return Some(self.of_scan(scan));
+            }
         }
         let first = planar.or_else(|| limits.by_ref().find_map(tried));
         let settled = || failed.into_iter().find_map(|(limits, found)| self.put_right(found?, limits));

@@ -20,15 +20,15 @@ const MOST_FOLLOWED: f64 = 0.3;
 /// Returns the variance of the noise about each plane.
 ///
 /// The noise of a scanner depends on the direction. So a facet's own corners and what all facets tell of its direction are
-/// averaged.
-pub(super) fn variances(fits: &[PlaneEstimate]) -> Vec<f64> {
+/// averaged. No variance is below that of the `least` noise.
+pub(super) fn variances(fits: &[PlaneEstimate], least: f64) -> Vec<f64> {
     let freedom: f64 = fits.iter().map(|fit| fit.freedom() as f64).sum();
     let mean = fits.iter().map(|fit| fit.squares).sum::<f64>() / freedom.max(1.0);
     let noise = by_direction(fits, mean);
     let each = |fit: &PlaneEstimate| {
         let normal = fit.plane.normal;
         let common = normal.dot(noise * normal).max(LEAST * mean);
-        (fit.squares + COMMON * common) / (fit.freedom() as f64 + COMMON)
+        ((fit.squares + COMMON * common) / (fit.freedom() as f64 + COMMON)).max(least * least)
     };
     fits.iter().map(each).collect()
 }
@@ -81,5 +81,5 @@ pub(super) fn errors(
             tilts: [tilt(0), tilt(1)],
         }
     };
-    fits.iter().zip(variances(fits)).zip(&members.of).map(each).collect()
+    fits.iter().zip(variances(fits, corners.least_noise)).zip(&members.of).map(each).collect()
 }

@@ -28,6 +28,10 @@ const LEAST_LEFT: usize = 16;
 /// Corners lie on the edges of the stone where their number near the edges is this many times what an even spread gives.
 const CROWDED: f64 = 2.0;
 
+/// They lie at the corners of the stone as well, at more than this part of them: where there is no noise, an even spread gives none, and a
+/// few lie on an edge by chance.
+const PART: f64 = 0.5;
+
 /// Corners can be told from those on the edges where their distance is this many standard deviations of the noise.
 const APART: f64 = 8.0;
 
@@ -68,6 +72,8 @@ pub(super) struct Members {
     pub deviation: f64,
     /// Whether the scan has corners on the edges of the solid, so that its triangles lie on one facet each.
     pub are_shared: bool,
+    /// The triangles that lie deeper below the solid than noise explains, by their places; none where triangles may lie across edges.
+    pub deep: Vec<u32>,
 }
 
 impl Members {
@@ -84,12 +90,10 @@ impl Members {
         };
         let mut explained: Vec<bool> =
             lies.iter().map(|&(f, d)| d.abs() <= OUTLIER * facets[f].noise).collect();
-        if are_shared {
-            let deep = deep_triangles(corners, &planes, &facets);
-            deep.into_iter().flatten().for_each(|&v| explained[v as usize] = false);
-        }
+        let deep = if are_shared { deep_triangles(corners, &planes, &facets) } else { vec![] };
+        deep.iter().flat_map(|&t| corners.triangles[t as usize]).for_each(|v| explained[v as usize] = false);
         let deviation = lies.iter().map(|(_, d)| d.abs()).fold(0.0, f64::max);
-        Self { of, explained, deviation, are_shared }
+        Self { of, explained, deviation, are_shared, deep }
     }
 
     /// Returns the sums over the corners of each facet.
@@ -190,7 +194,7 @@ impl<'a> UnsureEdges<'a> {
 /// so on its neighbours, but the triangles between them do not.
 ///
 /// The noise of a triangle's middle is less than that of its corners, by a part that depends on their correlation.
-fn deep_triangles<'a>(corners: &ScanCorners<'a>, planes: &[Plane], facets: &[Outlined]) -> Vec<&'a [u32; 3]> {
+fn deep_triangles(corners: &ScanCorners, planes: &[Plane], facets: &[Outlined]) -> Vec<u32> {
     let depth = |t: &[u32; 3]| {
         let (f, distance) = outermost(planes, t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0);
         // Planes that fit without any noise leave only rounding.
@@ -198,8 +202,7 @@ fn deep_triangles<'a>(corners: &ScanCorners<'a>, planes: &[Plane], facets: &[Out
     };
     let depths: Vec<f64> = corners.triangles.par_iter().map(depth).collect();
     let noise = median(depths.iter().map(|d| d.abs()).collect()) / MEDIAN;
-    let is_deep = |of: &(&[u32; 3], &f64)| *of.1 < -OUTLIER * noise.min(1.0);
-    corners.triangles.iter().zip(&depths).filter(is_deep).map(|(t, _)| t).collect()
+    (0..).zip(&depths).filter(|(_, depth)| **depth < -OUTLIER * noise.min(1.0)).map(|(t, _)| t).collect()
 }
 
 /// The median of the size of a number that is distributed normally, in standard deviations.
@@ -252,7 +255,7 @@ fn has_corners_on_edges(
         })
         .sum();
     let even = corners.at.len() as f64 * around * BORDER * noise / solid.surface_area();
-    near as f64 > CROWDED * even
+    near as f64 > CROWDED * even + PART * solid.vertices().len() as f64
 }
 
 /// Returns the standard deviation of the noise about each plane: from the median of its own corners' distances where these
@@ -267,6 +270,7 @@ pub(super) fn noises(corners: &ScanCorners, members: &Members, fits: &[PlaneEsti
     let freedom = |sizes: &Vec<f64>| (sizes.len() as f64 / (sizes.len() as f64 - 3.0).max(0.5)).sqrt();
     let scaled = each.iter().filter(|sizes| sizes.len() > 3);
     let common = median(scaled.flat_map(|sizes| sizes.iter().map(|d| d * freedom(sizes))).collect()) / MEDIAN;
+    let common = common.max(corners.least_noise);
     let own =
         |sizes: Vec<f64>| if sizes.len() < MANY { common } else { (median(sizes) / MEDIAN).max(common) };
     each.into_par_iter().map(own).collect()

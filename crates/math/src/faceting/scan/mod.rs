@@ -4,7 +4,8 @@
 //!    (`patches`, `growth`);
 //! 2. corners are assigned to the facets of the solid between the planes, and the planes are fitted to their corners again,
 //!    until nothing changes (`members`, `points`). Facets that one plane fits as well as two are joined (`merge`), and regions
-//!    are sought again among corners that lie on no facet;
+//!    are sought again among corners that lie on no facet, and among triangles that lie deep below the solid (`narrow`). Where
+//!    patches lie across edges, because facets have few corners within, regions of triangles begin the search instead (`Start`);
 //! 3. the solid counts if it reproduces the surface and what is left is noise (`verdict`);
 //! 4. the noise that is left gives the standard errors of the planes (`errors`, `correlation`, `rounding`).
 
@@ -14,6 +15,7 @@ mod errors;
 mod growth;
 mod members;
 mod merge;
+mod narrow;
 mod patches;
 mod points;
 mod rounding;
@@ -21,7 +23,9 @@ mod split;
 mod verdict;
 
 use super::plane_error::PlaneError;
+use super::regions::{NOWHERE, Regions};
 use crate::{Plane, Polytope, Surface};
+use glam::DVec3;
 use growth::grown;
 use members::{Members, noises};
 use patches::ScanCorners;
@@ -29,6 +33,9 @@ use points::PlaneEstimate;
 
 /// The fewest corners of a surface that can be a scan.
 pub(super) const FEWEST: usize = 200;
+
+/// A surface of more corners has enough of them within its facets, so that patches begin all facets.
+const MANY: usize = 8_000;
 
 /// The noise that is assumed, in multiples of what patches show. Patches show less where the noise of neighbouring corners is
 /// correlated, or less in some directions than in others.
@@ -58,19 +65,35 @@ pub(super) struct ScannedSolid {
 }
 
 /// Finds the solid that a scan represents; `None` where the surface is no scan of a convex solid with flat facets, or would need
-/// more than `most`.
-pub(super) fn scanned(surface: &Surface, most: usize) -> Option<ScannedSolid> {
+/// more than `most`. `regions` returns regions of triangles that lie in one plane except for noise, of one tolerance after the other: where
+/// facets have no corners within, patches of corners lie across their edges, but their triangles do not.
+pub(super) fn scanned(
+    surface: &Surface,
+    most: usize,
+    mut regions: impl Iterator<Item = Regions>,
+) -> Option<ScannedSolid> {
     if surface.vertices.len() < FEWEST {
         return None;
     }
     let corners = ScanCorners::of(surface);
     let noise = corners.noise()?;
-    ASSUMED.iter().find_map(|times| Scan { surface, corners: &corners, noise: times * noise, most }.solid())
+    let of_patches = |times: &f64| Scan { surface, corners: &corners, noise: times * noise, most }.solid();
+    let of_regions = |found: Regions| {
+        let start = Start::of(surface, &corners, &found)?;
+        Scan { surface, corners: &corners, noise: start.noise, most }.solid_from(start)
+    };
+    let found = ASSUMED.iter().find_map(of_patches);
+    if found.is_some() || surface.vertices.len() > MANY {
+        return found;
+    }
+    regions.find_map(of_regions)
 }
 
-/// Returns the standard deviation of a surface's noise, as patches of its corners show it; `None` where it has too few.
+/// Returns the standard deviation of a surface's noise, as patches of its corners show it, with that of rounding, which facets square to an
+/// axis do not show; `None` where it has too few.
 pub(super) fn noise(surface: &Surface) -> Option<f64> {
-    ScanCorners::of(surface).noise()
+    let corners = ScanCorners::of(surface);
+    Some(corners.noise()?.hypot(rounding::variance(corners.steps, DVec3::ONE).sqrt()))
 }
 
 /// A scan, and the noise that is assumed.
@@ -89,9 +112,43 @@ struct Fitted {
     fits: Vec<PlaneEstimate>,
 }
 
+/// The planes that a search for facets begins with.
+struct Start {
+    planes: Vec<Plane>,
+    /// The standard deviation of the noise.
+    noise: f64,
+}
+
+impl Start {
+    /// Takes the planes of regions of triangles. The noise is that of the corners about the planes; `None` where it is not known.
+    fn of(surface: &Surface, corners: &ScanCorners, found: &Regions) -> Option<Self> {
+        let mut of = vec![vec![]; found.fits.len()];
+        for (&region, t) in found.of.iter().zip(&surface.triangles).filter(|(region, _)| **region != NOWHERE)
+        {
+            of[region as usize].extend(t);
+        }
+        of.iter_mut().for_each(|of: &mut Vec<u32>| {
+            of.sort_unstable();
+            of.dedup();
+        });
+        let fits: Vec<PlaneEstimate> = of.iter().filter_map(|of| corners.fit(of)).collect();
+        let freedom: usize = fits.iter().map(PlaneEstimate::freedom).sum();
+        let squares: f64 = fits.iter().map(|fit| fit.squares).sum();
+        let noise = (squares / freedom as f64).sqrt();
+        (freedom >= verdict::FREEDOM * fits.len() && noise > 0.0)
+            .then(|| Self { planes: fits.iter().map(|fit| fit.plane).collect(), noise })
+    }
+}
+
 impl Scan<'_> {
+    /// Begins with patches of corners.
     fn solid(&self) -> Option<ScannedSolid> {
-        let fitted = self.settled()?;
+        let first = grown(self.corners, self.noise, &vec![false; self.corners.at.len()], self.most)?;
+        self.solid_from(Start { planes: first.iter().map(|fit| fit.plane).collect(), noise: self.noise })
+    }
+
+    fn solid_from(&self, start: Start) -> Option<ScannedSolid> {
+        let fitted = self.settled(start)?;
         verdict::is_reproduced(self.surface, self.corners, &fitted).then_some(())?;
         let freedom: usize = fitted.fits.iter().map(PlaneEstimate::freedom).sum();
         let squares: f64 = fitted.fits.iter().map(|fit| fit.squares).sum();
@@ -106,10 +163,10 @@ impl Scan<'_> {
     }
 
     /// Assigns corners and fits planes until nothing changes.
-    fn settled(&self) -> Option<Fitted> {
-        let first = grown(self.corners, self.noise, &vec![false; self.corners.at.len()], self.most)?;
-        let mut state = State { planes: vec![], noises: vec![], searches: 0, quiet: 0, inflation: 1.0 };
-        state.add(first.iter().map(|fit| fit.plane), self.noise);
+    fn settled(&self, start: Start) -> Option<Fitted> {
+        let mut state =
+            State { planes: vec![], noises: vec![], searches: 0, divided: None, quiet: 0, inflation: 1.0 };
+        state.add(start.planes.into_iter(), start.noise);
         for _ in 0..ROUNDS {
             let (polytope, own) = between(&state.planes, &state.noises)?;
             let members = Members::of(self.corners, &polytope, &own);
@@ -143,9 +200,11 @@ impl Scan<'_> {
         state.searches += 1;
         state.inflation = correlation::inflation(self.corners, members, fits);
         let parts = split::split(self.corners, members, fits, state.inflation);
-        let found = if parts.iter().all(Option::is_none) {
-            let noise = state.noises.iter().copied().fold(0.0, f64::max).max(self.noise);
-            grown(self.corners, noise, &members.explained, self.most)?.iter().map(|fit| fit.plane).collect()
+        // Parts that were joined again at once would be found for ever.
+        let is_in_vain = state.divided.replace(fits.len()) == Some(fits.len());
+        let found = if is_in_vain || parts.iter().all(Option::is_none) {
+            state.divided = None;
+            self.unexplained(state, members)?
         } else {
             state.keep(|f| parts[f].is_none());
             parts.into_iter().flatten().flatten().collect::<Vec<_>>()
@@ -154,6 +213,18 @@ impl Scan<'_> {
         let is_complete = found.is_empty() && state.searches > 1;
         state.add(found.into_iter(), self.noise);
         Some(is_complete)
+    }
+
+    /// Returns the planes of regions among the corners that lie on no facet, and else of triangles that lie deep below the solid.
+    fn unexplained(&self, state: &State, members: &Members) -> Option<Vec<Plane>> {
+        let noise = state.noises.iter().copied().fold(0.0, f64::max).max(self.noise);
+        let found: Vec<Plane> =
+            grown(self.corners, noise, &members.explained, self.most)?.iter().map(|fit| fit.plane).collect();
+        if !found.is_empty() {
+            return Some(found);
+        }
+        let common = state.noises.iter().copied().fold(f64::INFINITY, f64::min);
+        Some(narrow::planes(self.corners, &members.deep, common))
     }
 
     /// Returns the plane of the corners of each facet, `None` for facets without enough corners and for those that were joined
@@ -172,7 +243,7 @@ impl Scan<'_> {
         let near = |f: usize| growth::NEAR * noises[f];
         (0..fits.len()).for_each(|f| fits[f] = fits[f].filter(|fit| self.corners.is_outermost(fit, near(f))));
         let known: Vec<PlaneEstimate> = fits.iter().copied().flatten().collect();
-        let mut known = errors::variances(&known).into_iter();
+        let mut known = errors::variances(&known, self.corners.least_noise).into_iter();
         let variances: Vec<f64> =
             fits.iter().map(|fit| inflation * fit.and_then(|_| known.next()).unwrap_or_default()).collect();
         let joined = merge::join(polytope, &mut sums, &mut fits, &variances, self.corners);
@@ -186,6 +257,8 @@ struct State {
     noises: Vec<f64>,
     /// The number of times that missing planes were sought.
     searches: usize,
+    /// The number of facets when some were last divided; `None` where missing planes were sought otherwise since.
+    divided: Option<usize>,
     /// The number of rounds since the last plane was added or lost.
     quiet: usize,
     /// The factor by which the correlation of the noise multiplies the variances of means.

@@ -36,6 +36,10 @@ const FLAT_QUANTILE: f64 = -0.674_489_75;
 const BEYOND: f64 = 5e-3;
 const BEYOND_ALWAYS: usize = 2;
 
+/// The least noise that is told from none, as a part of the size. Coordinates of 32 bits are rounded by less, to which sums of squares are
+/// not exact, and corners on a facet square to an axis show none.
+const LEAST_NOISE: f64 = 5e-7;
+
 /// The corners that share an edge with each corner.
 pub(super) struct Neighbours {
     first: Vec<u32>,
@@ -103,6 +107,8 @@ pub(super) struct ScanCorners<'a> {
     pub spacing: f64,
     /// The steps to which the coordinates were rounded, along each axis; 0 where none is found.
     pub steps: DVec3,
+    /// The standard deviation of the noise that is the least in any scan.
+    pub least_noise: f64,
 }
 
 impl<'a> ScanCorners<'a> {
@@ -116,6 +122,7 @@ impl<'a> ScanCorners<'a> {
             // Corners in triangles of equal sides share the area evenly.
             spacing: (surface.area() / count * 2.0 / 3.0_f64.sqrt()).sqrt(),
             steps: steps(&surface.vertices),
+            least_noise: LEAST_NOISE * surface.size(),
         }
     }
 
@@ -146,11 +153,15 @@ impl<'a> ScanCorners<'a> {
         sums.fit(self.inside)
     }
 
-    /// Returns whether no more corners lie beyond a plane by more than `near` than tails of the noise explain. No corner lies
-    /// beyond a facet of a convex solid.
+    /// Returns whether no more corners lie beyond a plane by more than `near` and the plane's own error than tails of the noise explain.
+    /// No corner lies beyond a facet of a convex solid.
     pub fn is_outermost(&self, fit: &PlaneEstimate, near: f64) -> bool {
         let most = BEYOND_ALWAYS + (BEYOND * fit.count as f64) as usize;
-        let beyond = self.at.iter().filter(|&&v| fit.plane.distance(v) > near);
+        let is_beyond = |distance: f64, at: DVec3| distance > near * (1.0 + fit.leverage(at)).sqrt();
+        let beyond = self.at.iter().filter(|&&v| {
+            let distance = fit.plane.distance(v);
+            distance > near && is_beyond(distance, v)
+        });
         beyond.take(most + 1).count() <= most
     }
 
@@ -173,7 +184,7 @@ impl<'a> ScanCorners<'a> {
     /// are none.
     pub fn noise(&self) -> Option<f64> {
         let everywhere = vec![true; self.at.len()];
-        let near = noise(&self.patches(RING, &everywhere))?;
+        let near = noise(&self.patches(RING, &everywhere))?.max(self.least_noise);
         match self.sizes(near)[0] {
             NARROW => Some(near),
             size => Some(near.max(noise(&self.patches(size, &everywhere))?)),

@@ -1,20 +1,23 @@
 //! Whether a solid reproduces a scan, and what is left is noise.
 
 use super::Fitted;
-use super::bend::{Bend, FORMS, bend};
+use super::bend::{Bend, bend};
 use super::patches::ScanCorners;
 use crate::{Plane, Polytope, Surface};
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// A scan has at least this many corners for each facet, besides the three that fix its plane, so that its noise is known.
-const FREEDOM: usize = 4;
+pub(super) const FREEDOM: usize = 4;
 
 /// The greatest distance of a corner from the solid, as a part of the size: noise hides a culet that is narrower.
 const FARTHEST: f64 = 6e-3;
 
 /// The greatest part of the corners that lie farther from the solid than noise explains: inclusions, dust, worn edges.
 const UNEXPLAINED: f64 = 0.02;
+
+/// The fewest corners of a facet that tell what a curved one explains.
+const MANY: usize = 12;
 
 /// The greatest part of the squared distances that curved facets explain. Noise leaves nothing, a curved facet nearly all.
 const CURVED: f64 = 0.3;
@@ -44,8 +47,9 @@ pub(super) fn is_reproduced(surface: &Surface, corners: &ScanCorners, fitted: &F
 fn curved_part(corners: &ScanCorners, fitted: &Fitted) -> f64 {
     let (mut explained, mut whole) = (0.0, 0.0);
     for (fit, of) in fitted.fits.iter().zip(&fitted.members.of) {
-        if let Some(Bend { fall, .. }) = bend(corners, of, fit) {
-            explained += fall - fit.squares / fit.freedom() as f64 * FORMS;
+        let bend = Some(of).filter(|of| of.len() >= MANY).and_then(|of| bend(corners, of, fit));
+        if let Some(Bend { fall, forms, .. }) = bend {
+            explained += fall - fit.squares / fit.freedom() as f64 * forms;
             whole += fit.squares;
         }
     }
