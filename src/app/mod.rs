@@ -13,7 +13,6 @@ mod liquid;
 mod lookup;
 mod menus;
 mod model;
-mod painter;
 mod panels;
 mod polygons;
 mod profile_view;

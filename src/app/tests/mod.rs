@@ -19,6 +19,7 @@ mod layout;
 mod light_and_glass;
 mod looks;
 mod maps;
+mod painted;
 mod reading;
 mod recorder;
 mod rings;

@@ -6,8 +6,8 @@ use super::storage::FileStorage;
 use super::surface::WindowSurface;
 use super::{ID, LEAST, WindowError, viewport, without_place};
 use crate::app::editor::Editor;
-use crate::app::painter::Painter;
 use crate::app::setup::Setup;
+use brillianteer_painter::Painter;
 use eframe::{App, Storage};
 use egui::{
     Context, Event, FullOutput, ViewportBuilder, ViewportCommand, ViewportEvent, ViewportId, ViewportInfo,

@@ -1,6 +1,6 @@
 //! Copies the painted image to the window.
 
-use crate::app::painter::{Area, Canvas, Pixel};
+use brillianteer_painter::{Area, Canvas, Pixel};
 use egui_winit::winit::window::Window;
 use softbuffer::{Context, Rect, SoftBufferError, Surface};
 use std::collections::VecDeque;

@@ -45,6 +45,11 @@ impl Canvas {
         self.size
     }
 
+    /// Returns all pixels, row by row.
+    pub fn pixels(&self) -> &[Pixel] {
+        &self.pixels
+    }
+
     /// Returns the part of row `y` that lies in an area. The area must lie in the image.
     #[inline(always)]
     fn row(&mut self, y: i32, area: Area) -> &mut [Pixel] {
@@ -71,6 +76,12 @@ pub struct Painter {
 }
 
 impl Painter {
+    /// Takes over changed textures, and forgets those that are freed, without painting.
+    pub fn take_textures(&mut self, delta: &mut TexturesDelta) {
+        self.textures.set(delta);
+        self.textures.free(delta);
+    }
+
     /// Paints egui's primitives into an image of `size` pixels and returns the areas that have changed since the last image.
     /// The areas do not overlap. The changes of textures are moved out of `delta`, which is empty afterwards.
     pub fn paint(
