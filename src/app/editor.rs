@@ -1,28 +1,30 @@
 //! The editor's window: it draws the model, turns what a person does into actions, and carries out tasks.
 
 use super::hands::Hands;
-use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
-use super::model::opening::{FileRequest, Opening, OpeningPurpose};
-use super::model::ordering::Seen;
-use super::model::task::WindowTask;
-use super::model::workspace::Workspace;
-use super::model::{Action, Model, Task, update};
 use super::panels::{audit_panel, map_window, row_focus, rows, search_window, side_panels, tier_table};
 use super::setup::{PaintedBy, Setup};
-use super::shows::Shows;
 use super::state_file::StateFile;
-use super::studio::{self, Slot, Studio, Which};
-use super::tasks::autosave::Autosave;
-use super::tasks::{Outside, TaskAnswer};
+use super::textures;
 use super::views::gallery::{Shown, hang};
 use super::views::look_ups::look_ups;
 use super::views::{ViewTools, bench_mode, clock, light_path_window, stage};
 use super::{dialogs, drops, menus, theme};
 use brillianteer_base::Failure;
 use brillianteer_files::library;
+use brillianteer_session::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
+use brillianteer_session::model::opening::{FileRequest, Opening, OpeningPurpose};
+use brillianteer_session::model::ordering::Seen;
+use brillianteer_session::model::task::WindowTask;
+use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::model::{Action, Model, Task, update};
+use brillianteer_session::pixels::Pixels;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::{self, Slot, Studio, Which};
+use brillianteer_session::tasks::autosave::Autosave;
+use brillianteer_session::tasks::{Outside, TaskAnswer};
 use brillianteer_trace::gpu::Gpu;
 use eframe::{CreationContext, Storage};
-use egui::{ColorImage, Context, PanelState, TextureHandle, Ui, ViewportCommand};
+use egui::{Context, PanelState, TextureHandle, Ui, ViewportCommand};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -159,7 +161,7 @@ impl Editor {
                 "The light is still being drawn; copy the view when it is done.".to_owned()
             }
             Some(picture) => {
-                self.ctx.copy_image(picture.taken.image.clone());
+                self.ctx.copy_image(textures::image(&picture.taken.image));
                 format!("{} copied", shows.name())
             }
             None => "This view has no picture to copy.".to_owned(),
@@ -201,17 +203,18 @@ impl Editor {
                 TaskAnswer::Looked(_, _, Err(why)) => self.actions.push(NoteAction::Trouble(why.to_string())),
                 TaskAnswer::Thumbnail(shows, image) => {
                     let name = format!("thumbnail {shows:?}");
-                    let texture = self.ctx.load_texture(name, image, egui::TextureOptions::LINEAR);
+                    let texture =
+                        self.ctx.load_texture(name, textures::image(&image), egui::TextureOptions::LINEAR);
                     self.thumbnails.insert(shows, texture);
                 }
             }
         }
     }
 
-    fn copied(&mut self, made: Result<ColorImage, Failure>) {
+    fn copied(&mut self, made: Result<Pixels, Failure>) {
         let made = made.map(|image| {
             let size = image.size;
-            self.ctx.copy_image(image);
+            self.ctx.copy_image(textures::image(&image));
             size
         });
         self.actions.push(Computed::Copied(made));
@@ -378,7 +381,7 @@ impl Editor {
 
 /// Returns the action that opens a file, or the cut or scene of that name that comes with the program.
 fn first(path: PathBuf, mesh: brillianteer_files::mesh_options::MeshOptions) -> FileAction {
-    use super::model::dialog::Then;
+    use brillianteer_session::model::dialog::Then;
     let name = path.to_string_lossy().into_owned();
     let is_file = Path::is_file(&path);
     if !is_file && library::scene(&name).is_some() {

@@ -1,7 +1,7 @@
 //! The window's icon, which the program draws itself: its first stone from above.
 
-use crate::app::model::document::Document;
 use brillianteer_paper::rasterize_clear;
+use brillianteer_session::model::document::Document;
 use egui::IconData;
 
 /// The pixels of the icon along each side; systems make smaller icons of it.

@@ -1,15 +1,16 @@
 //! The menu bar, the status line at the bottom, and the keys.
 
-use super::model::Model;
-use super::model::action::{Action, Actions, FileAction};
-use super::model::command::{Command, MENUS, Menu};
-use super::model::dialog::Then;
-use super::model::preset::{Known, PRESETS};
-use super::model::session::{HeldKeys, Session};
 use super::panels::row_focus;
 use super::scrolled::scrolled;
 use super::setup::PaintedBy;
+use super::shortcuts::{letter, shortcuts};
 use brillianteer_files::library::SCENES;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Action, Actions, FileAction};
+use brillianteer_session::model::command::{Command, MENUS, Menu};
+use brillianteer_session::model::dialog::Then;
+use brillianteer_session::model::preset::{Known, PRESETS};
+use brillianteer_session::model::session::{HeldKeys, Session};
 use egui::{
     Align, Button, Context, Event, InnerResponse, Key, Modifiers, Panel, Popup, Response, RichText,
     ThemePreference, Ui, WidgetText,
@@ -22,7 +23,7 @@ pub fn bar(model: &Model, actions: &mut Actions, ui: &mut Ui) {
             for menu in &MENUS {
                 let shown = menu_button(ui, menu.title, |ui| entries(model, actions, ui, menu));
                 let is_pressed = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
-                if model.session.dialog.is_none() && menu.key().is_some_and(is_pressed) {
+                if model.session.dialog.is_none() && letter(menu).is_some_and(is_pressed) {
                     // The focus lets the arrow keys go on from the opened menu.
                     shown.response.request_focus();
                     Popup::toggle_id(ui.ctx(), Popup::default_response_id(&shown.response));
@@ -106,7 +107,7 @@ fn themes(ui: &mut Ui) {
 
 /// Draws a menu entry that carries out a command.
 pub fn entry(model: &Model, actions: &mut Actions, ui: &mut Ui, command: Command) {
-    let keys = command.shortcuts().next().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+    let keys = shortcuts(command).next().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
     let button = Button::new(command.name()).shortcut_text(keys).selected(model.is_chosen(command));
     let entry = ui.add_enabled(model.is_possible(command), button).on_hover_text(command.meaning());
     choose(actions, ui, &entry, command);
@@ -197,7 +198,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     // Keys count one by one, in the order in which they arrived: several may arrive within one frame.
     for (key, modifiers) in ctx.input(|i| i.events.iter().filter_map(pressed).collect::<Vec<_>>()) {
         let is_meant =
-            |c: &Command| c.shortcuts().any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
+            |c: &Command| shortcuts(*c).any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
         let Some(command) = Command::ALL.into_iter().find(is_meant) else { continue };
         if !modifiers.command && !is_function(key) && row_focus::holds_keys(ctx) {
             continue;

@@ -1,10 +1,10 @@
 //! The settings that an editor starts with.
 
-use super::model::workspace::Workspace;
 use super::state_file::StateFile;
-use super::tasks::Opener;
-use super::tasks::files::{Chooser, by_dialog};
 use brillianteer_files::mesh_options::MeshOptions;
+use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::tasks::Opener;
+use brillianteer_session::tasks::files::{Chooser, by_dialog};
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -1,20 +1,16 @@
 //! The keys of commands and menus.
 
-use super::model::command::{Command, Menu};
+use brillianteer_session::model::command::{Command, Menu};
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-impl Menu {
-    /// Returns the letter that opens the menu together with Alt: the first of its title.
-    pub fn key(&self) -> Option<Key> {
-        Key::from_name(self.title.get(..1)?)
-    }
+/// Returns the letter that opens a menu together with Alt: the first of its title.
+pub fn letter(menu: &Menu) -> Option<Key> {
+    Key::from_name(menu.title.get(..1)?)
 }
 
-impl Command {
-    /// Returns all keys of the command; menus show the first.
-    pub fn shortcuts(self) -> impl Iterator<Item = KeyboardShortcut> {
-        self.keys().split(", ").filter_map(shortcut)
-    }
+/// Returns all keys of a command; menus show the first.
+pub fn shortcuts(command: Command) -> impl Iterator<Item = KeyboardShortcut> {
+    command.keys().split(", ").filter_map(shortcut)
 }
 
 /// Returns a key by its text, such as `Ctrl+O`.
@@ -32,11 +28,11 @@ fn shortcut(text: &str) -> Option<KeyboardShortcut> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::model::command::MENUS;
+    use brillianteer_session::model::command::MENUS;
 
     #[test]
     fn every_menu_opens_by_a_letter_of_its_own() {
-        let keys: Vec<Key> = MENUS.iter().filter_map(Menu::key).collect();
+        let keys: Vec<Key> = MENUS.iter().filter_map(letter).collect();
         assert_eq!(keys, [Key::F, Key::E, Key::D, Key::V, Key::C, Key::H]);
     }
 
@@ -48,7 +44,7 @@ mod tests {
 
     #[test]
     fn no_key_does_two_things() {
-        let keys: Vec<_> = Command::ALL.iter().flat_map(|c| c.shortcuts().map(move |key| (c, key))).collect();
+        let keys: Vec<_> = Command::ALL.iter().flat_map(|c| shortcuts(*c).map(move |key| (c, key))).collect();
         let texts = Command::ALL.iter().flat_map(|c| c.keys().split(", ")).filter(|text| !text.is_empty());
         assert_eq!(keys.len(), texts.count(), "a text in the table of commands is no key");
         for (i, (a, key)) in keys.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! A small file that says whether the window is at rest. Tests that operate the real program wait for its content,
 //! and not for a length of time.
 
-use crate::app::model::workspace::PaneLayout;
 use brillianteer_files::{WriteError, write};
+use brillianteer_session::model::workspace::PaneLayout;
 use serde::Serialize;
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! Colours and spacing of the window, light and dark.
 
 use crate::app::glyphs;
-use crate::app::studio::Paper;
 use brillianteer_picture::Inks;
+use brillianteer_session::studio::Paper;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 
 /// The colour of a finding of the audit: bright on any picture, and different from that of a selected tier.

@@ -10,11 +10,11 @@ use brillianteer_scene::Movement;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 /// A value, its name, and its meaning.
-pub type Choice<T> = (T, &'static str, &'static str);
+pub type NamedValue<T> = (T, &'static str, &'static str);
 
 /// Returns the parser of an option that takes one of these values by its name.
 pub fn one_of<T: Copy + Send + Sync + 'static>(
-    choices: &'static [Choice<T>],
+    choices: &'static [NamedValue<T>],
 ) -> impl TypedValueParser<Value = T> {
     let listed = choices.iter().map(|(_, name, meaning)| PossibleValue::new(*name).help(*meaning));
     PossibleValuesParser::new(listed).try_map(|given| {
@@ -24,12 +24,12 @@ pub fn one_of<T: Copy + Send + Sync + 'static>(
 }
 
 /// Returns the name of a value; `None` where the command line has none for it.
-pub fn name_of<T: PartialEq>(choices: &[Choice<T>], value: T) -> Option<&'static str> {
+pub fn name_of<T: PartialEq>(choices: &[NamedValue<T>], value: T) -> Option<&'static str> {
     choices.iter().find(|(known, ..)| *known == value).map(|(_, name, _)| *name)
 }
 
 /// The tracer of a request.
-pub const TRACERS: [Choice<Wanted>; 4] = [
+pub const TRACERS: [NamedValue<Wanted>; 4] = [
     (
         Wanted::Quickest,
         "auto",
@@ -45,14 +45,14 @@ pub const TRACERS: [Choice<Wanted>; 4] = [
 ];
 
 /// How plates move.
-pub const MOVEMENTS: [Choice<Movement>; 3] = [
+pub const MOVEMENTS: [NamedValue<Movement>; 3] = [
     (Movement::Both, "both", "Plates tumble as other bodies do, and their waves run"),
     (Movement::Tumble, "tumble", "Plates tumble, and their waves stand still"),
     (Movement::Wave, "wave", "The waves run, and the plates stay in their pose"),
 ];
 
 /// The forms in which the triangles of a mesh are read, if not as found.
-pub const MESH_FORMS: [Choice<MeshForm>; 2] = [
+pub const MESH_FORMS: [NamedValue<MeshForm>; 2] = [
     (
         MeshForm::Faceted,
         "faceted",
@@ -62,7 +62,7 @@ pub const MESH_FORMS: [Choice<MeshForm>; 2] = [
 ];
 
 /// The formats of design files.
-pub const DESIGN_FORMATS: [Choice<DesignFormat>; 8] = [
+pub const DESIGN_FORMATS: [NamedValue<DesignFormat>; 8] = [
     (DesignFormat::Toml, "toml", "Cut files of this program"),
     (DesignFormat::Asc, "asc", "GemCad's text files"),
     (DesignFormat::Gem, "gem", "GemCad's binary files"),
@@ -74,18 +74,18 @@ pub const DESIGN_FORMATS: [Choice<DesignFormat>; 8] = [
 ];
 
 /// The formats of cutters' sheets.
-pub const SHEET_FORMATS: [Choice<SheetFormat>; 3] = [
+pub const SHEET_FORMATS: [NamedValue<SheetFormat>; 3] = [
     (SheetFormat::Pdf, "pdf", "Portable documents, all pages in one file, with text that can be searched"),
     (SheetFormat::Svg, "svg", "Drawings, a file for each page"),
     (SheetFormat::Png, "png", "Pictures of 300 pixels an inch, a file for each page"),
 ];
 
 /// The sizes of paper.
-pub const PAPER_SIZES: [Choice<PaperSize>; 2] =
+pub const PAPER_SIZES: [NamedValue<PaperSize>; 2] =
     [(PaperSize::A4, "a4", "210 by 297 mm"), (PaperSize::Letter, "letter", "8½ by 11 inches")];
 
 /// The formats in which a stone is exported.
-pub const OUTPUT_FORMATS: [Choice<OutputFormat>; 4] = [
+pub const OUTPUT_FORMATS: [NamedValue<OutputFormat>; 4] = [
     (OutputFormat::Png, "png", "Pictures of energy and of strongest exits, sRGB"),
     (OutputFormat::Svg, "svg", "The virtual facets as polygons"),
     (OutputFormat::Exr, "exr", "Energy of each zone, 32-bit and linear"),

@@ -2,9 +2,9 @@
 
 use super::answers::{answer, body, buttons};
 use crate::app::icon::icon;
-use crate::app::model::action::{Actions, DialogAction, FileAction};
-use crate::app::model::dialog::{AboutForm, AboutPage};
 use crate::app::scrolled::follow_focus;
+use brillianteer_session::model::action::{Actions, DialogAction, FileAction};
+use brillianteer_session::model::dialog::{AboutForm, AboutPage};
 use egui::{
     ColorImage, Grid, Id, Label, RichText, ScrollArea, TextEdit, TextureHandle, TextureOptions, Ui, vec2,
 };

@@ -1,8 +1,8 @@
 //! The frame of dialogs: their contents, which scroll where the window is low, and below them the buttons, which are
 //! always in sight, with the answers that they give.
 
-use crate::app::model::action::{Actions, DialogAction};
 use crate::app::scrolled::scrolled;
+use brillianteer_session::model::action::{Actions, DialogAction};
 use egui::{Key, Ui};
 
 /// The space that dialogs leave free above and below, their own margins included, points.

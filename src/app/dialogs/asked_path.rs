@@ -1,10 +1,10 @@
 //! The dialog that asks for a file by its path, where the system has no file dialog.
 
 use super::answers::{body, buttons_alone};
-use crate::app::model::action::{Actions, DialogAction};
-use crate::app::model::choosing::Purpose;
-use crate::app::model::dialog::PathForm;
 use crate::app::theme;
+use brillianteer_session::model::action::{Actions, DialogAction};
+use brillianteer_session::model::choosing::Purpose;
+use brillianteer_session::model::dialog::PathForm;
 use egui::{Key, RichText, TextEdit, Ui};
 
 /// Returns the name of the button that accepts the path.

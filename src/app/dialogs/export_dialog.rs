@@ -2,15 +2,15 @@
 
 use super::answers::body;
 use super::export_sheet::sheet_row;
-use crate::app::model::action::{Actions, DialogAction, FileAction};
-use crate::app::model::choosing::Purpose;
-use crate::app::model::export::Selection;
-use crate::app::model::exporting::{ExportForm, ExportRun};
-use crate::app::shows::Shows;
 use crate::app::theme;
 use brillianteer_base::Failure;
 use brillianteer_paper::export::OutputFormat;
 use brillianteer_paper::refraction::{MOST_MAP_BANDS, MOST_PLACES};
+use brillianteer_session::model::action::{Actions, DialogAction, FileAction};
+use brillianteer_session::model::choosing::Purpose;
+use brillianteer_session::model::export::Selection;
+use brillianteer_session::model::exporting::{ExportForm, ExportRun};
+use brillianteer_session::shows::Shows;
 use egui::{
     Color32, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
     TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,

@@ -1,9 +1,9 @@
 //! The cutter's sheet in the export dialog.
 
-use crate::app::model::export_sheet::SheetChoice;
 use crate::app::panels::rows::spoken;
 use brillianteer_paper::cutting_sheet::SheetFormat;
 use brillianteer_picture::PaperSize;
+use brillianteer_session::model::export_sheet::SheetChoice;
 use egui::{ComboBox, Ui};
 
 /// The width of the choices, points.

@@ -9,14 +9,15 @@ mod export_sheet;
 mod retarget_dialog;
 mod yield_dialog;
 
-use super::model::Model;
-use super::model::action::{Actions, DialogAction};
-use super::model::command::Command;
-use super::model::dialog::Dialog;
-use super::model::recovery::RecoveredWork;
-use super::shows::Shows;
+use super::shortcuts::shortcuts;
 use answers::{answer, body, body_of, buttons};
 use brillianteer_cut::FAMILIES;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, DialogAction};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::dialog::Dialog;
+use brillianteer_session::model::recovery::RecoveredWork;
+use brillianteer_session::shows::Shows;
 use egui::{Context, Grid, Id, Key, Modal, RichText, TextureHandle, Ui};
 use std::collections::HashMap;
 use std::time::Duration;
@@ -130,7 +131,7 @@ fn keys(actions: &mut Actions, ui: &mut Ui) {
             line("C held".into(), "Shows the other design of a comparison.");
             line("Z held".into(), "Shows renders in only three bands of wavelengths.");
             for command in Command::ALL {
-                let keys: Vec<String> = command.shortcuts().map(|keys| ctx.format_shortcut(&keys)).collect();
+                let keys: Vec<String> = shortcuts(command).map(|keys| ctx.format_shortcut(&keys)).collect();
                 if !keys.is_empty() {
                     line(keys.join(" or "), command.meaning());
                 }

@@ -1,13 +1,13 @@
 //! The dialog that fits the design to another material: each tier before and after, and the light of both.
 
 use super::answers::{answer, body, buttons_alone};
-use crate::app::model::action::{Actions, DialogAction};
-use crate::app::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
 use crate::app::panels::rows::{ChoiceRow, NUMBER, Number, explain, named_with_reset, skip_control};
 use crate::app::panels::stone_rows::material_choice;
 use crate::app::theme;
 use brillianteer_cut::Retargeted;
 use brillianteer_math::signed;
+use brillianteer_session::model::action::{Actions, DialogAction};
+use brillianteer_session::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
 use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 
 /// The width of the dialog, points.

@@ -1,12 +1,12 @@
 //! The dialog of size and yield: the stone that a piece of rough gives, or that has a weight.
 
 use super::answers::{answer, body, buttons_alone};
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, DialogAction};
-use crate::app::model::fitting::{SizeBy, YieldForm, YieldOptions};
 use crate::app::panels::rows::{ChoiceRow, Number, number_row};
 use crate::app::theme;
 use brillianteer_cut::{Finished, FitLimit, Rough};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, DialogAction};
+use brillianteer_session::model::fitting::{SizeBy, YieldForm, YieldOptions};
 use egui::{Grid, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 

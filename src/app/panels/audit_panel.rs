@@ -2,11 +2,11 @@
 //!
 //! A click on a row selects it: the views outline its facets and mark its corners.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, ViewAction};
 use crate::app::panels::rows::explain;
 use brillianteer_cut::{Audit, Finding, FindingKind};
 use brillianteer_math::fixed;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, ViewAction};
 use egui::{Button, Panel, RichText, ScrollArea, Ui};
 use glam::DVec3;
 

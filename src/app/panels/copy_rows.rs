@@ -1,19 +1,19 @@
 //! Rows for presets, copies, their motion, and the smoothing of moving edges. They are shown for glass shapes; gems
 //! can have them too.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
-use crate::app::model::command::Command;
-use crate::app::model::dialog::Then;
-use crate::app::model::document::Document;
-use crate::app::model::motion::Motion;
-use crate::app::model::preset::{Known, PRESETS};
-use crate::app::model::render_settings::SettingChange;
-use crate::app::model::workspace::Workspace;
 use crate::app::panels::rows::{ANY, ChoiceRow, NUMBER, Row, control_width, field_width, named, skip_name};
-use crate::app::shows::Shows;
-use crate::app::studio::Smoothing;
 use brillianteer_scene::{MOST_COPIES, Movement, has_wave};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit, FileAction, ViewAction};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::dialog::Then;
+use brillianteer_session::model::document::Document;
+use brillianteer_session::model::motion::Motion;
+use brillianteer_session::model::preset::{Known, PRESETS};
+use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::Smoothing;
 use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
 

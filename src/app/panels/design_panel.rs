@@ -1,11 +1,5 @@
 //! The design panel: proportions, stone, light and copies.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit};
-use crate::app::model::command::Command;
-use crate::app::model::document::Document;
-use crate::app::model::impossible::{self, RowMessage};
-use crate::app::model::workspace::PanelSide;
 use crate::app::panels::row_focus;
 use crate::app::panels::rows::{ANY, FilledRow, NOT_KNOWN, Row, explain, field_width, named, wrong};
 use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
@@ -13,6 +7,12 @@ use crate::app::theme;
 use brillianteer_cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use brillianteer_math::fixed;
 use brillianteer_scene::{Copies, SpecimenError};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::document::Document;
+use brillianteer_session::model::impossible::{self, RowMessage};
+use brillianteer_session::model::workspace::PanelSide;
 use egui::{
     Button, Panel, Rect, RichText, Role, ScrollArea, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };

@@ -1,11 +1,11 @@
 //! The figures as lines: every zone and total with its name, its meaning and its share of the stone's outline.
 
-use crate::app::model::figures::ShownFigures;
-use crate::app::model::workspace::Workspace;
-use crate::app::studio::Grade;
 use brillianteer_measure::Figures;
 use brillianteer_picture::Scoped;
 use brillianteer_scene::{Glare, Scope};
+use brillianteer_session::model::figures::ShownFigures;
+use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::studio::Grade;
 
 /// A figure that the panel shows.
 #[derive(Debug)]
@@ -213,12 +213,12 @@ pub fn energy(figures: &Figures, band: usize, glare: Glare) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::model::document::Document;
-    use crate::app::studio::FiguresOrder;
     use brillianteer_base::unwatched;
     use brillianteer_measure::by_beams;
     use brillianteer_optics::line;
     use brillianteer_scene::View;
+    use brillianteer_session::model::document::Document;
+    use brillianteer_session::studio::FiguresOrder;
     use brillianteer_trace::beam;
     use std::sync::Arc;
 

@@ -1,16 +1,16 @@
 //! The figures panel: the shares of the light by its origin, by exact beams or by rays, and their change when the
 //! stone is tilted.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, NoteAction, ViewAction};
-use crate::app::model::workspace::{PanelSide, Workspace};
 use crate::app::panels::figure_lines::{Counting, Figure, FigureLine, energy, lines, zones};
 use crate::app::panels::rows::explain;
 use crate::app::panels::{figures_text, pane_rows, side_panels, tilt_plot};
-use crate::app::studio::{Tilts, Which};
 use crate::app::theme;
 use brillianteer_math::signed;
 use brillianteer_scene::Glare;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, NoteAction, ViewAction};
+use brillianteer_session::model::workspace::{PanelSide, Workspace};
+use brillianteer_session::studio::{Tilts, Which};
 use egui::{Align, Button, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotPoint, PlotPoints};
 use std::ops::RangeInclusive;

@@ -1,12 +1,12 @@
 //! Figures in words: the stone and view that they describe, and all of them as text and as tables for the clipboard.
 
-use crate::app::model::Model;
-use crate::app::model::eye::Eye;
-use crate::app::model::figures::ShownFigures;
 use crate::app::panels::figure_lines::{Counting, FigureLine, energy, lines, zones};
-use crate::app::studio::{Grade, Tilts, Which};
 use brillianteer_math::{fixed, signed};
 use brillianteer_scene::Glare;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::eye::Eye;
+use brillianteer_session::model::figures::ShownFigures;
+use brillianteer_session::studio::{Grade, Tilts, Which};
 use std::fmt::Write as _;
 
 /// Returns the figures of the design compared with.
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn tilts_are_a_table_of_the_zones() {
-        let document = crate::app::model::document::Document::first().unwrap();
+        let document = brillianteer_session::model::document::Document::first().unwrap();
         let specimen = document.specimen();
         let scope = Scope::aset(ASET_CONE, Backing::Black);
         let options = beam::BeamOptions { unresolved: 0.05, ..beam::BeamOptions::default() };

@@ -1,8 +1,8 @@
 //! The fields above the table of tiers for the gear of the machine and for the symmetry that the design states.
 
-use crate::app::model::action::{Actions, Edit};
 use crate::app::panels::rows::explain;
 use brillianteer_cut::{TierChange, Tiers};
+use brillianteer_session::model::action::{Actions, Edit};
 use egui::{Align, DragValue, Layout, Ui, vec2};
 use std::ops::RangeInclusive;
 

@@ -1,9 +1,9 @@
 //! The rows that describe a better cut: measures with weights and limits, and the numbers that may change.
 
 use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, spoken};
-use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort};
 use brillianteer_measure::measure_words;
 use brillianteer_search::GoalMeasure;
+use brillianteer_session::model::goal_form::{GoalForm, NumberChoice, SearchEffort};
 use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
 
 /// The widths of the fields of a measure, of its direction, and of its numbers, points.

@@ -1,17 +1,17 @@
 //! Rows for the light of renders, the backplate behind the stone, and the observer's head.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit, FileAction};
-use crate::app::model::choosing::Purpose;
-use crate::app::model::command::Command;
-use crate::app::model::render_settings::{RenderSettings, SettingChange, WAVELENGTHS};
 use crate::app::panels::rows::{ChoiceRow, Row, colour_row, field_width, skip_name};
-use crate::app::studio::BEHIND;
 use brillianteer_picture::light_picture;
 use brillianteer_render::USUAL_BOUNCES;
 use brillianteer_scene::Background;
 use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{LIGHTS, light};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit, FileAction};
+use brillianteer_session::model::choosing::Purpose;
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::render_settings::{RenderSettings, SettingChange, WAVELENGTHS};
+use brillianteer_session::studio::BEHIND;
 use egui::{Button, ColorImage, Id, Image, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use std::borrow::Cow;
 use std::ops::RangeInclusive;

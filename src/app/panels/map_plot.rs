@@ -3,14 +3,14 @@
 
 use super::map_lines::{MapLinesOf, map_lines};
 use crate::app::arrows;
-use crate::app::model::action::{Actions, Edit};
-use crate::app::model::growing_sweep::FoundSweep;
-use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STRIDES, point};
 use crate::app::theme;
 use brillianteer_cut::Design;
 use brillianteer_measure::measure_words;
 use brillianteer_paper::plot::{levels, map_colour};
 use brillianteer_render::{SweepError, SweptStone};
+use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::growing_sweep::FoundSweep;
+use brillianteer_session::model::measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STRIDES, point};
 use egui::epaint::Mesh;
 use egui::{
     Align2, Color32, FontId, Modifiers, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke,

@@ -2,12 +2,12 @@
 
 use super::map_plot::{MapPlot, MapReading};
 use super::rows::{ANY, ChoiceRow, NUMBER, Number, named_with_reset};
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, ViewAction};
-use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
 use crate::app::scrolled::scrolled;
 use brillianteer_cut::{Cut, Design};
 use brillianteer_measure::measure_words;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
 use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.
@@ -39,7 +39,7 @@ pub fn show(model: &Model, actions: &mut Actions, ctx: &Context) {
             contents(model, actions, ui);
         });
     });
-    actions.push_if(!is_open, crate::app::model::command::Command::Map);
+    actions.push_if(!is_open, brillianteer_session::model::command::Command::Map);
 }
 
 fn contents(model: &Model, actions: &mut Actions, ui: &mut Ui) {

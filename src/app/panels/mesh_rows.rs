@@ -1,12 +1,12 @@
 //! Rows that set how the open mesh is read: as flat facets or as triangles, which way its table faces, how long its unit
 //! is, and which of several bodies it is.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, FileAction};
 use crate::app::panels::rows::{ChoiceRow, named};
 use brillianteer_cut::Cut;
 use brillianteer_cut::from_mesh::{Evening, Up};
 use brillianteer_files::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, FileAction};
 use egui::Ui;
 use glam::DVec3;
 

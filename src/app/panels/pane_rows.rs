@@ -1,13 +1,13 @@
 //! Rows for the pane of liquid glass, which appear while a view shows it.
 
-use crate::app::liquid::{LightMotion, Liquid};
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit};
-use crate::app::model::render_settings::SettingChange;
 use crate::app::panels::row_focus;
 use crate::app::panels::rows::{ChoiceRow, NUMBER, Row, control_width, explain, named_with_reset};
-use crate::app::shows::Shows;
 use brillianteer_picture::liquid_glass::PaneQuality;
+use brillianteer_session::liquid::{LightMotion, Liquid};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::shows::Shows;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 

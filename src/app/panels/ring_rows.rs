@@ -1,9 +1,9 @@
 //! Rows for the numbers of a scene's ring.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit};
 use crate::app::panels::rows::{ChoiceRow, Row, wrong};
 use brillianteer_scene::{OuterShape, RING_NUMBERS, Ring, RingNumber, RingStyle};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit};
 use egui::{CollapsingHeader, Ui};
 
 /// How the panel shows a number of a ring.

@@ -7,10 +7,10 @@
 use super::row_default;
 pub use super::row_default::may_follow as may_be_reset;
 use super::row_focus;
-use crate::app::model::action::{Action, Actions};
 use crate::app::theme;
 use brillianteer_math::fixed;
 use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
+use brillianteer_session::model::action::{Action, Actions};
 use egui::emath::format_with_decimals_in_range;
 use egui::{
     Color32, ComboBox, DragValue, Id, Label, Rect, RectAlign, Response, RichText, Sense, Slider,

@@ -1,10 +1,10 @@
 //! The fields above the table of tiers that scale the crown or the pavilion: all tiers of the side move together, so that every meet
 //! stays.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit};
 use crate::app::panels::rows::{Number, explain, spoken};
 use brillianteer_cut::{Cut, ScaledSide, Tiers};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit};
 use egui::{Align, Layout, Ui, vec2};
 use std::ops::RangeInclusive;
 

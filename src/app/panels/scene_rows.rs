@@ -1,13 +1,13 @@
 //! Rows for a scene of several designs: its stones, of which one is edited, its metal, and the numbers of its ring.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit};
-use crate::app::model::export::kinds;
 use crate::app::panels::ring_rows;
 use crate::app::panels::rows::{ChoiceRow, Row, field_width, named};
 use brillianteer_cut::{Design, MaterialRef};
 use brillianteer_optics::Metal;
 use brillianteer_scene::MetalInstance;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::export::kinds;
 use egui::{Align, Button, Label, Layout, Role, Ui, WidgetInfo, vec2};
 use std::ops::RangeInclusive;
 use std::sync::Arc;

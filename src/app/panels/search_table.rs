@@ -1,14 +1,14 @@
 //! The report of a search: each measure before and after, whether it rose or fell, and the numbers of the design that
 //! changed.
 
-use crate::app::model::Model;
-use crate::app::model::cut_search::SearchReport;
-use crate::app::model::goal_form::NumberChoice;
 use crate::app::theme;
 use brillianteer_math::{fixed, signed};
 use brillianteer_measure::Interval;
 use brillianteer_measure::measure_words;
 use brillianteer_search::MeasureChange;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::cut_search::SearchReport;
+use brillianteer_session::model::goal_form::NumberChoice;
 use egui::{Color32, Grid, Response, RichText, Ui, vec2};
 use std::cmp::Ordering;
 

@@ -4,14 +4,14 @@ use super::goal_rows;
 use super::rows::explain;
 use super::search_plot;
 use super::search_table;
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, FileAction, SearchAction};
-use crate::app::model::choosing::Purpose;
-use crate::app::model::command::Command;
-use crate::app::model::cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState};
-use crate::app::model::goal_form::GoalForm;
 use crate::app::theme;
 use brillianteer_measure::measure_words;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, FileAction, SearchAction};
+use brillianteer_session::model::choosing::Purpose;
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState};
+use brillianteer_session::model::goal_form::GoalForm;
 use egui::{
     Button, Context, Pos2, ProgressBar, RichText, ScrollArea, TextStyle, Ui, Vec2, Window, pos2, vec2,
 };

@@ -2,11 +2,11 @@
 //!
 //! Each panel can be folded to a strip. A window with room for one panel alone opens one and folds the other.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, ViewAction};
-use crate::app::model::workspace::PanelSide;
 use crate::app::panels::design_panel;
 use crate::app::panels::figures_panel;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::workspace::PanelSide;
 use egui::{
     Align, Layout, Panel, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
     vec2,

@@ -1,8 +1,5 @@
 //! Rows for the material, size and weight of the stone.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit};
-use crate::app::model::extent::Extent;
 use crate::app::panels::material_rows;
 use crate::app::panels::rows::{
     ChoiceRow, NOT_KNOWN, NUMBER, Number, UNKNOWN, named, number_row, skip_control,
@@ -10,6 +7,9 @@ use crate::app::panels::rows::{
 use brillianteer_cut::{Cut, Design, MaterialRef, Size};
 use brillianteer_math::rounded;
 use brillianteer_optics::{Material, line, materials};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::extent::Extent;
 use egui::{RichText, Ui};
 use std::ops::RangeInclusive;
 

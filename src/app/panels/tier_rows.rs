@@ -2,11 +2,11 @@
 //!
 //! Distances are shown in mm; the design has them in a unit of its own.
 
-use crate::app::model::action::{Actions, Edit};
-use crate::app::model::command::Command;
-use crate::app::model::document::Document;
 use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, named_with_reset, skip_control};
 use brillianteer_cut::{Cut, TierChange};
+use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::document::Document;
 use egui::{Align, Layout, RichText, Ui, vec2};
 
 const MEANING: &str = "A tier: all facets that are cut at one angle and one distance. A change moves this tier \

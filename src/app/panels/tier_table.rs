@@ -3,12 +3,12 @@
 //! A click on a row selects it, and the views outline its facets; a click on a facet there selects its row. The
 //! buttons above the table act on the selected tier.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, Edit, ViewAction};
-use crate::app::model::meet_pick::MeetPick;
 use crate::app::panels::rows::{ANY, Number, explain, spoken};
 use crate::app::panels::{gear_fields, scale_fields};
 use brillianteer_cut::{Cut, FROSTINGS, Tier, TierChange, TierZone, Tiers, read_indices};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, Edit, ViewAction};
+use brillianteer_session::model::meet_pick::MeetPick;
 use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
 /// The least, the first and the greatest height of the table, points.

@@ -1,10 +1,10 @@
 //! The plot against tilt of one measure, toward several azimuths, each with the band in which it certainly lies.
 
 use super::rows::ChoiceRow;
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, ViewAction};
-use crate::app::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
 use brillianteer_measure::{Interval, measure_words};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
 use egui::{Color32, RichText, Ui};
 use egui_plot::{FilledArea, GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints};
 

@@ -3,9 +3,9 @@
 use super::grips::Grip;
 use super::handle::{Handle, percent_of_radius};
 use super::sight::{ProfileBox, ProfileProjection};
-use crate::app::value_grid::ValueGrid;
 use brillianteer_cut::{Cut, ProfileHandle};
 use brillianteer_picture::profile::Dimensions;
+use brillianteer_session::value_grid::ValueGrid;
 use egui::{Pos2, Vec2};
 use glam::DVec2;
 

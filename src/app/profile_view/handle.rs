@@ -2,12 +2,12 @@
 //!
 //! Places are in girdle radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
-use crate::app::value_grid::ValueGrid;
 use brillianteer_cut::ProfileHandle::{
     self, CrownSlope, CuletEdge, GirdleLower, GirdleUpper, PavilionSlope, PavilionTip, TableEdge, TableLine,
 };
 use brillianteer_cut::{Cut, Proportion};
 use brillianteer_picture::profile::{Dimensions, Span};
+use brillianteer_session::value_grid::ValueGrid;
 use egui::CursorIcon;
 use glam::DVec2;
 

@@ -2,14 +2,14 @@
 
 use super::fitting::pick;
 use super::*;
-use crate::app::model::action::FileAction;
-use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::export::Selection;
-use crate::app::model::exporting::{ExportEvent, ExportRun};
-use crate::app::model::plan::export_plan;
-use crate::app::tasks::export::run;
 use brillianteer_files::cut_file;
 use brillianteer_paper::export::OutputFormat;
+use brillianteer_session::model::action::FileAction;
+use brillianteer_session::model::dialog::{Dialog, Then};
+use brillianteer_session::model::export::Selection;
+use brillianteer_session::model::exporting::{ExportEvent, ExportRun};
+use brillianteer_session::model::plan::export_plan;
+use brillianteer_session::tasks::export::run;
 use egui::{Key, Role};
 use std::path::Path;
 

@@ -1,8 +1,8 @@
 //! Tests of the list of the audit: its rows, the facets that it selects, and its updates after changes of the design.
 
 use super::*;
-use crate::app::model::audit::finding_facets;
 use brillianteer_cut::FindingKind;
+use brillianteer_session::model::audit::finding_facets;
 use egui_kittest::kittest::NodeT;
 
 /// A design whose mains and breaks meet in points. Its table lies half a percent of the width deeper than the points

@@ -1,14 +1,14 @@
 //! Tests of the views that show a background behind glass: refraction maps, and liquid glass.
 
 use super::*;
-use crate::app::liquid::Liquid;
-use crate::app::model::action::Computed;
-use crate::app::model::command::Command;
-use crate::app::model::workspace::Pane;
-use crate::app::studio::ShotLight;
 use brillianteer_paper::lighting;
 use brillianteer_picture::RefractionMap;
 use brillianteer_picture::liquid_glass::PaneQuality;
+use brillianteer_session::liquid::Liquid;
+use brillianteer_session::model::action::Computed;
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::workspace::Pane;
+use brillianteer_session::studio::ShotLight;
 
 impl Bench {
     /// Chooses what a view shows from its menu, by name.
@@ -56,8 +56,8 @@ impl Bench {
 }
 
 /// Returns whether a picture has more than one colour.
-fn is_drawn(picture: &[egui::Color32]) -> bool {
-    picture.iter().any(|p| *p != picture[0])
+fn is_drawn(picture: &[[u8; 4]]) -> bool {
+    picture.iter().any(|pixel| *pixel != picture[0])
 }
 
 #[test]
@@ -279,8 +279,8 @@ fn a_world_that_is_being_drawn_is_shown_coarsely_at_once_and_the_status_line_say
     bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
     // The first picture has a world behind it, which is the coarse one unless the whole one is drawn by then.
     let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
-    let corner = shown.taken.image.pixels[0];
-    assert!(shown.grade == Grade::Rough && corner.a() == 255 && corner.b() > 0, "{corner:?}");
+    let [_, _, blue, cover] = shown.taken.image.rgba.as_chunks::<4>().0[0];
+    assert!(shown.grade == Grade::Rough && cover == 255 && blue > 0, "{blue} {cover}");
 }
 
 #[test]
@@ -304,8 +304,8 @@ fn a_light_that_is_being_drawn_is_shown_coarsely_at_once_and_nothing_fine_is_mad
     assert!(says(&bench, "loading the light… ·"), "the light before is shown");
     let coarse = ShotLight::coarse(lighting::load("ring").unwrap());
     come(&mut bench, &coarse);
-    let rough = bench.editor().shown((0, Which::Present)).unwrap().taken.image.pixels.clone();
-    assert!(is_drawn(&rough) && says(&bench, "drawing the light… ·"));
+    let rough = bench.editor().shown((0, Which::Present)).unwrap().taken.image.clone();
+    assert!(is_drawn(rough.rgba.as_chunks().0) && says(&bench, "drawing the light… ·"));
     bench.wait(|editor| editor.studio.is_idle());
     assert!(!bench.editor().is_idle() && says(&bench, "drawing the light… ·"));
     assert!(bench.editor().views.gallery.traced[&(0, Which::Present)].grade == Grade::Rough);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::app::library_cuts::library_cuts;
-use crate::app::model::dialog::Dialog;
+use brillianteer_session::model::dialog::Dialog;
 use egui::{Key, Role};
 
 fn is_open(bench: &Bench) -> bool {

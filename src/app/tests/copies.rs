@@ -3,19 +3,19 @@
 use super::Bench;
 use super::light_and_glass::pick;
 use crate::app::editor::Editor;
-use crate::app::model::action::{Edit, FileAction};
-use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::eye::Eye;
-use crate::app::model::motion::Motion;
-use crate::app::model::plan::export_plan;
-use crate::app::model::preset::Preset;
-use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
-use crate::app::shows::Shows;
-use crate::app::studio::{Smoothing, Which, hung};
-use crate::app::tasks::export_scene::SceneOut;
 use brillianteer_render::{Quality, Steps};
 use brillianteer_scene::{Copies, Mipmap, Panorama, Pose};
+use brillianteer_session::model::action::{Edit, FileAction};
+use brillianteer_session::model::dialog::{Dialog, Then};
+use brillianteer_session::model::eye::Eye;
+use brillianteer_session::model::motion::Motion;
+use brillianteer_session::model::plan::export_plan;
+use brillianteer_session::model::preset::Preset;
+use brillianteer_session::model::workspace::{PaneLayout, Workspace};
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::{Smoothing, Which, hung};
+use brillianteer_session::tasks::export_scene::SceneOut;
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
@@ -27,6 +27,7 @@ pub(super) fn bench(scene: &str) -> Bench {
     let workspace = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
     let setup = Setup { file: Some(PathBuf::from(scene)), workspace, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(860.0, 1240.0));
+    bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
     bench.harness.run_steps(3);
     bench
 }
@@ -102,7 +103,7 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     bench.harness.state_mut().model.document.work.settings.smoothing = Smoothing::Temporal { newest: 0.5 };
     let pictures = |bench: &Bench| {
         let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
-        (shown.shot.copies.clone(), shown.taken.image.pixels.clone())
+        (shown.shot.copies.clone(), shown.taken.image.clone())
     };
     bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
     let first = pictures(&bench);

@@ -2,10 +2,10 @@
 //! `cargo test --release --lib drag -- --ignored --nocapture`
 
 use super::*;
-use crate::app::model::action::Edit;
-use crate::app::model::{Action, update};
 use brillianteer_cut::{Crown, Tier, TierChange};
 use brillianteer_scene::Side;
+use brillianteer_session::model::action::Edit;
+use brillianteer_session::model::{Action, update};
 use glam::DVec2;
 
 /// Number of changes, one for each frame of a screen of 60 Hz.

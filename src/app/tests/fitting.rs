@@ -2,9 +2,9 @@
 
 use super::row_defaults::double_click_name;
 use super::*;
-use crate::app::model::dialog::Dialog;
-use crate::app::model::fitting::RetargetForm;
 use brillianteer_cut::{Finished, MaterialRef, Rough};
+use brillianteer_session::model::dialog::Dialog;
+use brillianteer_session::model::fitting::RetargetForm;
 use egui::Role;
 
 /// Opens an editor in a window that is high enough for the dialogs.

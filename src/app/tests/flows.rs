@@ -1,10 +1,10 @@
 //! Tests of whole tasks, from the user's first click to the last.
 
 use super::*;
-use crate::app::model::dialog::Dialog;
 use brillianteer_cut::Crown;
 use brillianteer_files::cut_file;
 use brillianteer_render::{MeasureOptions, measure};
+use brillianteer_session::model::dialog::Dialog;
 use egui_kittest::kittest::NodeT;
 
 #[test]
@@ -338,7 +338,7 @@ fn two_designs_are_compared_and_their_figures_differ() {
     bench.settle();
     let figures = |which| &bench.editor().model.session.measured.figures[&which].figures;
     assert_ne!(figures(Which::Present), figures(Which::Other));
-    let pictures = |which| bench.editor().views.gallery.traced[&(0, which)].taken.image.pixels.clone();
+    let pictures = |which| bench.editor().views.gallery.traced[&(0, which)].taken.image.clone();
     assert_ne!(pictures(Which::Present), pictures(Which::Other));
     assert_eq!(bench.harness.query_all_by_label("present").count(), 2);
     bench.harness.key_down(egui::Key::C);

@@ -1,12 +1,12 @@
 //! Tests of files in other formats: opened, changed and saved.
 
 use super::*;
-use crate::app::model::document::Document;
 use brillianteer_cut::from_mesh::Up;
 use brillianteer_cut::{Design, Glass, MeshShape};
 use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_math::{Surface, TriangleMesh};
 use brillianteer_scene::Specimen;
+use brillianteer_session::model::document::Document;
 use std::sync::Arc;
 
 #[test]

@@ -2,8 +2,8 @@
 //! illustrative colours.
 
 use super::*;
-use crate::app::model::dialog::Dialog;
 use brillianteer_scene::Glare;
+use brillianteer_session::model::dialog::Dialog;
 use egui_kittest::kittest::NodeT;
 
 /// Returns the share that a row of the figures shows, in percent.

@@ -4,9 +4,9 @@ use super::emerald::build;
 use super::fitting::pick;
 use super::tiers::reach;
 use super::*;
-use crate::app::model::dialog::Dialog;
 use brillianteer_paper::cutting_sheet::{SheetFormat, cutting_sheet, write};
 use brillianteer_picture::PaperSize;
+use brillianteer_session::model::dialog::Dialog;
 use std::path::Path;
 
 /// Opens the window as at a first start, in the dark theme, with a file that comes with the program.

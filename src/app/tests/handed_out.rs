@@ -2,13 +2,13 @@
 //! pages), and of files that are dropped on it.
 
 use super::*;
-use crate::app::model::dialog::Dialog;
-use crate::app::model::document::Document;
 use brillianteer_cut::Design;
 use brillianteer_files::cut_file;
 use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_paper::write_rgba_png;
 use brillianteer_scene::Specimen;
+use brillianteer_session::model::dialog::Dialog;
+use brillianteer_session::model::document::Document;
 use egui::OutputCommand;
 use egui_kittest::kittest::NodeT;
 use std::path::Path;

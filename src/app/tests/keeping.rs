@@ -1,11 +1,11 @@
 //! Tests of files: opening and saving them, changes by other programs, and recovery after a crash.
 
 use super::*;
-use crate::app::model::action::FileAction;
-use crate::app::model::dialog::Dialog;
-use crate::app::model::document::Document;
-use crate::app::model::opening::OpeningPurpose;
 use brillianteer_files::cut_file;
+use brillianteer_session::model::action::FileAction;
+use brillianteer_session::model::dialog::Dialog;
+use brillianteer_session::model::document::Document;
+use brillianteer_session::model::opening::OpeningPurpose;
 
 #[test]
 fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_lost() {

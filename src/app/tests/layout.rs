@@ -1,14 +1,14 @@
 //! Tests of the window's layout: on small screens, beside errors, for stones of any outline.
 
 use super::*;
-use crate::app::model::command::MENUS;
-use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::document::Document;
-use crate::app::model::exporting::ExportForm;
-use crate::app::model::plan::export_plan;
 use crate::app::theme;
 use brillianteer_cut::{Design, MaterialRef};
 use brillianteer_files::{cut_file, design_file};
+use brillianteer_session::model::command::MENUS;
+use brillianteer_session::model::dialog::{Dialog, Then};
+use brillianteer_session::model::document::Document;
+use brillianteer_session::model::exporting::ExportForm;
+use brillianteer_session::model::plan::export_plan;
 use egui::{Color32, Rect, Role, vec2};
 use egui_kittest::kittest::{By, NodeT};
 
@@ -412,7 +412,7 @@ fn a_diagram_is_dark_in_the_dark_and_light_in_the_light() {
         bench.harness.run_steps(3);
         bench.look();
         let picture = bench.picture(1);
-        let light = picture.iter().filter(|p| p.r() > 200).count() as f64 / picture.len() as f64;
+        let light = picture.iter().filter(|p| p[0] > 200).count() as f64 / picture.len() as f64;
         assert_eq!(light < 0.2, is_dark, "{theme:?}: {light} of it is light");
     }
 }

@@ -2,16 +2,16 @@
 
 use super::Bench;
 use super::copies::bench;
-use crate::app::model::render_settings::RenderSettings;
-use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
-use crate::app::studio::{Shot, Smoothing};
 use brillianteer_cut::MaterialRef;
 use brillianteer_files::cut_file;
 use brillianteer_math::Basis;
 use brillianteer_optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use brillianteer_picture::Bloom;
 use brillianteer_scene::{LIGHTS, Light, light};
+use brillianteer_session::model::render_settings::RenderSettings;
+use brillianteer_session::model::workspace::{PaneLayout, Workspace};
+use brillianteer_session::studio::{Shot, Smoothing};
 use brillianteer_trace::environment::{Environment, EnvironmentMap};
 use egui::{
     Color32, ColorImage, Context, FullOutput, ImageData, Key, Modifiers, Rect, Role, Shape, TextureId,

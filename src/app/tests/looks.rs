@@ -65,7 +65,7 @@ fn what_may_be_exported() {
     let mut bench = Bench::drawn(Setup { workspace: arrows_first(), ..Setup::default() }, egui::Theme::Dark);
     bench.settle();
     bench.choose("File", "Export…");
-    let Some(crate::app::model::dialog::Dialog::Export(export)) =
+    let Some(brillianteer_session::model::dialog::Dialog::Export(export)) =
         &mut bench.harness.state_mut().model.session.dialog
     else {
         panic!()

@@ -2,8 +2,8 @@
 
 use super::fitting::pick;
 use super::*;
-use crate::app::model::Model;
 use brillianteer_measure::MeasureName;
+use brillianteer_session::model::Model;
 use egui::{Role, pos2, vec2};
 
 /// The number of points of the first complete level: 5 x 5.

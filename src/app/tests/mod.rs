@@ -32,17 +32,17 @@ mod tiers;
 mod views;
 
 use crate::app::editor::Editor;
-use crate::app::model::Model;
-use crate::app::model::choosing::{Choice, Question};
-use crate::app::model::render_settings::RenderSettings;
-use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
-use crate::app::shows::Shows;
-use crate::app::studio::{Grade, Shot, Slot, Which};
-use crate::app::tasks::files::Chooser;
 use crate::app::views::gallery::Shown;
 use brillianteer_cut::{Cut, RoundBrilliant};
 use brillianteer_scene::Copies;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::choosing::{Choice, Question};
+use brillianteer_session::model::render_settings::RenderSettings;
+use brillianteer_session::model::workspace::{PaneLayout, Workspace};
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::{Grade, Shot, Slot, Which};
+use brillianteer_session::tasks::files::Chooser;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::PathBuf;
@@ -125,7 +125,7 @@ impl Bench {
             if setup.workspace == Workspace::default() { Self::small() } else { setup.workspace.clone() };
         let opened: Arc<Mutex<Vec<String>>> = Arc::default();
         let outside = Arc::clone(&opened);
-        let opener: crate::app::tasks::Opener = Arc::new(move |what: &str| {
+        let opener: brillianteer_session::tasks::Opener = Arc::new(move |what: &str| {
             outside.lock().unwrap().push(what.to_owned());
             Ok(())
         });
@@ -309,9 +309,9 @@ impl Bench {
     }
 
     /// Returns the pixels of a view, whose picture must be fine.
-    pub fn picture(&self, pane: usize) -> Vec<egui::Color32> {
+    pub fn picture(&self, pane: usize) -> Vec<[u8; 4]> {
         let shown = self.editor().shown((pane, Which::Present)).unwrap();
         assert_eq!(shown.grade, Grade::Fine);
-        shown.taken.image.pixels.clone()
+        shown.taken.image.rgba.as_chunks().0.to_vec()
     }
 }

@@ -2,10 +2,10 @@
 #![allow(clippy::print_stdout, reason = "tests print what they measure")]
 
 use crate::app::editor::Editor;
-use crate::app::model::workspace::Workspace;
 use crate::app::setup::Setup;
-use crate::app::shows::Shows;
 use brillianteer_painter::Painter;
+use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::shows::Shows;
 use egui::{Context, FullOutput, TexturesDelta, Theme};
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, TestRenderer};

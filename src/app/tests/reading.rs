@@ -1,14 +1,14 @@
 //! Tests of meshes that are read, and read again in another way.
 
 use super::*;
-use crate::app::model::action::FileAction;
-use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::document::Document;
-use crate::app::model::opening::{FileRequest, Opening, OpeningPurpose};
 use brillianteer_cut::from_mesh::{Evening, Up};
 use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_files::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use brillianteer_scene::Specimen;
+use brillianteer_session::model::action::FileAction;
+use brillianteer_session::model::dialog::{Dialog, Then};
+use brillianteer_session::model::document::Document;
+use brillianteer_session::model::opening::{FileRequest, Opening, OpeningPurpose};
 use glam::DVec3;
 use std::path::Path;
 

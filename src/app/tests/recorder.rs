@@ -37,8 +37,7 @@ fn record(cut: &str, shows: Shows, record: &mut String) {
     let editor = bench.editor();
     let picture = editor.shown((0, Which::Present)).map(|shown| {
         let image = &shown.taken.image;
-        let bytes: Vec<[u8; 4]> = image.pixels.iter().map(|pixel| pixel.to_array()).collect();
-        (image.size, hash(bytes), shown.taken.unresolved, shown.taken.tracer)
+        (image.size, hash(&image.rgba), shown.taken.unresolved, shown.taken.tracer)
     });
     let figures =
         editor.model.session.measured.figures.get(&Which::Present).map(|measured| numbers(&measured.figures));

@@ -4,19 +4,19 @@ use super::Bench;
 use super::copies::{at, bench, drag};
 use super::light_and_glass::pick;
 use crate::app::editor::Editor;
-use crate::app::model::Model;
-use crate::app::model::action::FileAction;
-use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::plan::export_plan;
-use crate::app::model::recovery::KeptCompanions;
-use crate::app::model::task::Task;
-use crate::app::model::update;
-use crate::app::model::work::Work;
-use crate::app::model::workspace::Workspace;
-use crate::app::studio::{Shot, Which};
 use brillianteer_math::bounds;
 use brillianteer_optics::Metal;
 use brillianteer_scene::{MetalInstance, Projection, RingStyle, SceneRing};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::FileAction;
+use brillianteer_session::model::dialog::{Dialog, Then};
+use brillianteer_session::model::plan::export_plan;
+use brillianteer_session::model::recovery::KeptCompanions;
+use brillianteer_session::model::task::Task;
+use brillianteer_session::model::update;
+use brillianteer_session::model::work::Work;
+use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::studio::{Shot, Which};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use glam::DVec3;
@@ -287,7 +287,7 @@ fn metal_of_a_ring_that_was_recovered_is_made_anew() {
     let kept = built.ring.clone().unwrap();
     assert!(kept.ring == companions.ring.as_ref().unwrap().ring && kept.seats.len() == 1);
     model.document.work.companions = built;
-    let tasks = update(&mut model, crate::app::model::action::NoteAction::DismissAll.into());
+    let tasks = update(&mut model, brillianteer_session::model::action::NoteAction::DismissAll.into());
     let plan = tasks.iter().find_map(|task| match task {
         Task::MakeRing(_, plan) => Some(plan),
         _ => None,
@@ -310,5 +310,5 @@ fn colours_of_a_plain_background_are_picked() {
     assert_eq!(behind(&bench).as_deref(), Some("#010203"));
     bench.look();
     let picture = bench.picture(0);
-    assert_eq!(picture[0].to_array(), [1, 2, 3, 255], "the corner shows the background");
+    assert_eq!(picture[0], [1, 2, 3, 255], "the corner shows the background");
 }

@@ -2,13 +2,13 @@
 
 use super::light_and_glass::pick;
 use super::*;
-use crate::app::model::action::{Edit, FileAction, ViewAction};
-use crate::app::model::command::Command;
-use crate::app::model::dialog::Then;
-use crate::app::model::render_settings::{RenderSettings, SettingChange};
-use crate::app::model::update;
-use crate::app::model::work::Work;
-use crate::app::studio::Smoothing;
+use brillianteer_session::model::action::{Edit, FileAction, ViewAction};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::dialog::Then;
+use brillianteer_session::model::render_settings::{RenderSettings, SettingChange};
+use brillianteer_session::model::update;
+use brillianteer_session::model::work::Work;
+use brillianteer_session::studio::Smoothing;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 
 /// Returns the names of all fields for numbers in sight, and the value of each.
@@ -159,7 +159,7 @@ fn a_double_click_on_a_slider_is_one_step() {
 
 /// Every change of a setting that a picture is made with.
 fn changes() -> Vec<SettingChange> {
-    let liquid = crate::app::liquid::Liquid { frost: 40.0, ..Default::default() };
+    let liquid = brillianteer_session::liquid::Liquid { frost: 40.0, ..Default::default() };
     vec![
         SettingChange::Light("office".into()),
         SettingChange::LightTurn(30.0),

@@ -2,21 +2,21 @@
 
 use super::copies::{at, bench, drag};
 use super::{Bench, Setup};
-use crate::app::model::Model;
-use crate::app::model::action::{Edit, FileAction};
-use crate::app::model::command::Command;
-use crate::app::model::dialog::Then;
-use crate::app::model::plan::export_plan;
-use crate::app::model::preset::Preset;
-use crate::app::model::recovery::KeptCompanions;
-use crate::app::model::render_settings::SettingChange;
-use crate::app::model::update;
-use crate::app::model::work::Work;
-use crate::app::model::workspace::Workspace;
-use crate::app::shows::Shows;
-use crate::app::studio::Which;
-use crate::app::tasks::export_scene::SceneOut;
 use brillianteer_scene::MetalInstance;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Edit, FileAction};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::dialog::Then;
+use brillianteer_session::model::plan::export_plan;
+use brillianteer_session::model::preset::Preset;
+use brillianteer_session::model::recovery::KeptCompanions;
+use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::model::update;
+use brillianteer_session::model::work::Work;
+use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::Which;
+use brillianteer_session::tasks::export_scene::SceneOut;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 use glam::DVec3;
@@ -107,7 +107,7 @@ fn a_stone_of_another_design_is_shown_and_dragged_and_stops_before_the_next() {
 
 #[test]
 fn each_document_has_the_light_and_the_views_of_its_own_and_undo_brings_them_back() {
-    use crate::app::model::action::ViewAction;
+    use brillianteer_session::model::action::ViewAction;
     let state = |model: &Model| {
         let near = model.workspace.panes.each_ref().map(|pane| (pane.shows, pane.is_near));
         (model.document.work.settings.clone(), (model.workspace.shown(), near))
@@ -141,7 +141,7 @@ fn each_document_has_the_light_and_the_views_of_its_own_and_undo_brings_them_bac
 }
 
 /// Returns the shot of the first view in sight, and the number of views in sight.
-fn seen(bench: &Bench) -> (crate::app::studio::Shot, usize) {
+fn seen(bench: &Bench) -> (brillianteer_session::studio::Shot, usize) {
     let model = &bench.editor().model;
     (model.session.ordered.shots[0].1.clone(), model.workspace.shown().len())
 }

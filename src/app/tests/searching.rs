@@ -2,10 +2,10 @@
 
 use super::fitting::pick;
 use super::*;
-use crate::app::model::action::Edit;
-use crate::app::model::cut_search::{EndedSearch, SearchEnd, SearchState};
-use crate::app::model::render_settings::SettingChange;
 use brillianteer_cut::Design;
+use brillianteer_session::model::action::Edit;
+use brillianteer_session::model::cut_search::{EndedSearch, SearchEnd, SearchState};
+use brillianteer_session::model::render_settings::SettingChange;
 use egui::{Role, vec2};
 use egui_kittest::kittest::NodeT;
 use std::path::Path;
@@ -186,8 +186,8 @@ fn another_exposure_does_not_stop_a_search_and_is_a_step_of_its_own() {
 #[test]
 fn another_document_ends_the_search() {
     let mut bench = begun();
-    use crate::app::model::action::FileAction;
-    use crate::app::model::dialog::Then;
+    use brillianteer_session::model::action::FileAction;
+    use brillianteer_session::model::dialog::Then;
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("oval".to_owned())));
     bench.harness.run_steps(4);
     bench.click("Don't save");
@@ -218,7 +218,7 @@ fn the_window_says_what_is_missing_and_why_glass_cannot_be_searched() {
 /// Opens the stone of the first design as a mesh, whose tiers cannot move alone.
 fn opened_mesh(folder: &Path) -> Bench {
     let file = folder.join("stone.stl");
-    let stone = crate::app::model::document::Document::first().unwrap().specimen().clone();
+    let stone = brillianteer_session::model::document::Document::first().unwrap().specimen().clone();
     brillianteer_files::design_file::write(&stone, brillianteer_files::design_file::DesignFormat::Stl, &file)
         .unwrap();
     opened(Setup { file: Some(file), ..Setup::default() })

@@ -2,8 +2,8 @@
 
 use super::tiers::{reach, tiers, type_text};
 use super::*;
-use crate::app::model::meet_pick::MeetPick;
 use brillianteer_cut::{CornerFault, Meet, Tier, TierChange, TierCorner, TierZone, Tiers};
+use brillianteer_session::model::meet_pick::MeetPick;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use glam::{DMat2, DVec2};
 

@@ -1,9 +1,9 @@
 //! Tests of the labels of views, and of navigation in them; and a test that unchanged views are not traced again.
 
 use super::*;
-use crate::app::model::workspace::Pane;
 use crate::app::views::modes::Mode;
 use brillianteer_scene::{LIGHTS, Projection};
+use brillianteer_session::model::workspace::Pane;
 use egui::{Key, Modifiers, PointerButton, Role};
 
 /// Opens a wide window with one view.
@@ -183,7 +183,7 @@ fn exposure_and_overlays_of_a_render_are_made_of_the_light_that_was_traced() {
     bench.settle();
     let bright = bench.picture(0);
     assert_eq!(bench.editor().studio.traced(), traced, "another exposure");
-    let sum = |picture: &[egui::Color32]| picture.iter().map(|p| u64::from(p.g())).sum::<u64>();
+    let sum = |picture: &[[u8; 4]]| picture.iter().map(|p| u64::from(p[1])).sum::<u64>();
     assert!(sum(&bright) > sum(&dark), "{} after {}", sum(&bright), sum(&dark));
     bench.harness.state_mut().model.workspace.toggle_overlay("wireframe");
     bench.settle();

@@ -1,11 +1,11 @@
 //! Bench mode: one step of the cutting at a time, large enough to be read from the machine.
 
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, ViewAction};
-use crate::app::model::cutting::{CuttingProgress, CuttingStep, steps};
 use crate::app::polygons;
 use brillianteer_cut::{Cut, TierZone, Tiers};
 use brillianteer_math::{Plane, Polytope};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::cutting::{CuttingProgress, CuttingStep, steps};
 use egui::{
     Button, CentralPanel, Color32, DragValue, Key, Mesh, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
     WidgetInfo, pos2, vec2,

@@ -2,11 +2,11 @@
 
 use super::pane_context::PaneContext;
 use super::pane_view::PaneView;
-use crate::app::model::Model;
-use crate::app::model::action::{Edit, ViewAction};
-use crate::app::shows::Shows;
-use crate::app::studio::{Shot, Which};
 use brillianteer_scene::{Companion, Pose, Specimen};
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Edit, ViewAction};
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::{Shot, Which};
 use brillianteer_trace::ray::Camera;
 use egui::{CursorIcon, PointerButton, Pos2, Response, Ui};
 use glam::DVec2;

@@ -2,8 +2,8 @@
 
 use super::pane_view::PaneView;
 use crate::app::arrows;
-use crate::app::model::eye::Eye;
 use brillianteer_scene::Side;
+use brillianteer_session::model::eye::Eye;
 use egui::{Key, Modifiers, PointerButton, Response, Ui};
 use glam::DVec2;
 

@@ -1,7 +1,7 @@
 //! The click that may follow a ray through the stone, and the place where the window of its path opens.
 
 use super::light_path::LightPath;
-use crate::app::model::action::ViewAction;
+use brillianteer_session::model::action::ViewAction;
 use egui::{Context, Pos2, Rect, pos2};
 use glam::DVec2;
 

@@ -1,9 +1,10 @@
 //! The pictures that the views show, as textures.
 
-use crate::app::model::Model;
-use crate::app::shows::Shows;
 use crate::app::state_file::BlockSizes;
-use crate::app::studio::{Grade, Shot, Slot, TakenPicture, Which};
+use crate::app::textures;
+use brillianteer_session::model::Model;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::{Grade, Shot, Slot, TakenPicture, Which};
 use egui::{Color32, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 use std::collections::HashMap;
 
@@ -75,7 +76,7 @@ pub fn hang(
     slot: Slot,
     (shot, grade, taken): (Shot, Grade, TakenPicture),
 ) {
-    let image = taken.image.clone();
+    let image = textures::image(&taken.image);
     let texture = match pictures.remove(&slot) {
         Some(mut shown) => {
             shown.texture.set(image, TextureOptions::LINEAR);
@@ -89,12 +90,12 @@ pub fn hang(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::model::action::FileAction;
-    use crate::app::model::dialog::Then;
-    use crate::app::model::update;
-    use crate::app::model::workspace::Workspace;
     use crate::app::views::ViewTools;
-    use egui::ColorImage;
+    use brillianteer_session::model::action::FileAction;
+    use brillianteer_session::model::dialog::Then;
+    use brillianteer_session::model::update;
+    use brillianteer_session::model::workspace::Workspace;
+    use brillianteer_session::pixels::Pixels;
 
     #[test]
     fn a_picture_of_a_document_that_has_ended_is_dropped_whenever_it_comes() {
@@ -104,7 +105,7 @@ mod tests {
         let shot =
             |model: &Model| ViewTools::default().orders(model).shot(1, Which::Present, [64, 32]).unwrap();
         let come = |gallery: &mut Gallery, model: &Model, shot: &Shot| {
-            let image = ColorImage::filled([2, 1], Color32::BLACK);
+            let image = Pixels::opaque([2, 1], &[0; 6]);
             let taken = TakenPicture { image, unresolved: None, tracer: "", coarser: 1.0, map: None };
             hang(&ctx, &mut gallery.traced, slot, (shot.clone(), Grade::Rough, taken));
             gallery.tidy(model);

@@ -1,9 +1,9 @@
 //! The corners of the stone to which a tier can be cut, and why it cannot be cut to the others, for the views that mark them.
 
 use super::pane_view::PaneView;
-use crate::app::model::meet_pick::MeetPick;
 use brillianteer_cut::{CornerFault, Cut, Meet, TierCorner};
 use brillianteer_scene::Specimen;
+use brillianteer_session::model::meet_pick::MeetPick;
 use brillianteer_trace::ray::Camera;
 use egui::{Color32, Pos2};
 use glam::DVec3;
@@ -147,8 +147,8 @@ impl CornersOfTier {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::model::document::Document;
     use brillianteer_files::as_tiers;
+    use brillianteer_session::model::document::Document;
 
     #[test]
     fn corners_that_tiers_can_be_cut_to_lie_on_the_stone() {

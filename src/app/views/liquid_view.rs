@@ -5,11 +5,11 @@ use super::clock::step;
 use super::pane_context::{PaneContext, focus};
 use super::view_menu::attend;
 use crate::app::arrows;
-use crate::app::liquid::{LightMotion, Liquid};
-use crate::app::model::action::{Edit, ViewAction};
-use crate::app::model::render_settings::SettingChange;
-use crate::app::shows::Shows;
-use crate::app::studio::Which;
+use brillianteer_session::liquid::{LightMotion, Liquid};
+use brillianteer_session::model::action::{Edit, ViewAction};
+use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo};
 use glam::DVec2;
 

@@ -1,12 +1,12 @@
 //! Makes the requests for pictures in sight that are looked up or drawn, and not traced.
 
 use super::tools::ViewTools;
-use crate::app::lookup::backdrop;
-use crate::app::model::Model;
-use crate::app::model::ordering::Seen;
-use crate::app::shows::Shows;
-use crate::app::studio::{Grade, Slot, Which};
-use crate::app::tasks::lookup::LookupRequest;
+use brillianteer_session::lookup::backdrop;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::ordering::Seen;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::{Grade, Slot, Which};
+use brillianteer_session::tasks::lookup::LookupRequest;
 
 /// Returns a request for each picture in sight that is looked up or drawn.
 pub fn look_ups(model: &Model, tools: &mut ViewTools, seen: &[Seen]) -> Vec<(Slot, LookupRequest)> {

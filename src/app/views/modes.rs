@@ -3,14 +3,14 @@
 
 use super::pane_context::PaneContext;
 use crate::app::menus::menu_button;
-use crate::app::model::Model;
-use crate::app::model::action::{Action, Edit, ViewAction};
-use crate::app::model::command::Command;
-use crate::app::model::eye::Eye;
-use crate::app::model::render_settings::SettingChange;
-use crate::app::model::workspace::Pane;
-use crate::app::shows::Shows;
 use brillianteer_render::USUAL_BOUNCES;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Action, Edit, ViewAction};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::eye::Eye;
+use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::model::workspace::Pane;
+use brillianteer_session::shows::Shows;
 use egui::{Button, RichText, TextStyle, Ui};
 use std::path::Path;
 

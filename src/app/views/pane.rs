@@ -3,9 +3,9 @@
 use super::pane_context::PaneContext;
 use super::view_menu::attend;
 use super::{liquid_view, pane_head, scene_view};
-use crate::app::model::action::{Edit, ViewAction};
-use crate::app::shows::Shows;
-use crate::app::studio::Which;
+use brillianteer_session::model::action::{Edit, ViewAction};
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::Which;
 use egui::{
     Align, Align2, Color32, FontId, Layout, Rect, Role, Sense, StrokeKind, Ui, UiBuilder, WidgetInfo, vec2,
 };

@@ -3,13 +3,13 @@
 use super::gallery::Shown;
 use super::tools::ViewTools;
 use crate::app::menus::entry;
-use crate::app::model::Model;
-use crate::app::model::action::Actions;
-use crate::app::model::command::Command;
-use crate::app::model::eye::Eye;
-use crate::app::model::session::Flowing;
-use crate::app::shows::Shows;
-use crate::app::studio::Which;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::Actions;
+use brillianteer_session::model::command::Command;
+use brillianteer_session::model::eye::Eye;
+use brillianteer_session::model::session::Flowing;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::Which;
 use egui::{Response, Stroke, Ui};
 
 /// The context of one view in one frame: the state that it shows, and the user's actions in it.

@@ -4,11 +4,11 @@
 use super::gallery::Shown;
 use super::pane_context::{PaneContext, has_room};
 use super::{modes, refraction_view};
-use crate::app::model::action::ViewAction;
-use crate::app::shows::Shows;
-use crate::app::studio::{Grade, Shot, Which};
 use crate::app::theme;
 use brillianteer_scene::Glare;
+use brillianteer_session::model::action::ViewAction;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::{Grade, Shot, Which};
 use egui::{Align, ComboBox, Layout, RichText, Role, Ui, WidgetInfo};
 
 /// The width of the choice of the picture where the view is narrow, points.

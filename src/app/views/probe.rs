@@ -171,8 +171,8 @@ impl ProbeHit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::model::document::Document;
     use brillianteer_scene::{ASET_CONE, Backing};
+    use brillianteer_session::model::document::Document;
 
     #[test]
     fn the_table_is_found_in_the_middle_and_a_bezel_beside_it() {

@@ -3,8 +3,8 @@
 
 use super::clock::step;
 use super::pane_context::{PaneContext, has_room};
-use crate::app::model::session::Flowing;
-use crate::app::studio::SPAN;
+use brillianteer_session::model::session::Flowing;
+use brillianteer_session::studio::SPAN;
 use egui::{PointerButton, Response, Ui};
 use glam::DVec2;
 

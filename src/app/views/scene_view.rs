@@ -4,14 +4,14 @@ use super::pane_context::{PaneContext, focus};
 use super::pane_view::PaneView;
 use super::view_menu::attend;
 use super::{copies, eye_hand, refraction_view, tier_hand, tier_picking};
-use crate::app::model::action::ViewAction;
-use crate::app::model::audit::finding_facets;
-use crate::app::shows::Shows;
-use crate::app::studio::Which;
 use crate::app::theme::FOUND;
 use brillianteer_cut::Cut;
 use brillianteer_picture::Scoped;
 use brillianteer_scene::Scope;
+use brillianteer_session::model::action::ViewAction;
+use brillianteer_session::model::audit::finding_facets;
+use brillianteer_session::shows::Shows;
+use brillianteer_session::studio::Which;
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
 };

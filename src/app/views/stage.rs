@@ -3,11 +3,11 @@
 use super::pane;
 use super::pane_context::PaneContext;
 use super::tools::{Attention, ViewTools};
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, ViewAction};
-use crate::app::model::ordering::Seen;
-use crate::app::model::workspace::PaneLayout;
 use crate::app::trouble_bar;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::ordering::Seen;
+use brillianteer_session::model::workspace::PaneLayout;
 use egui::{CentralPanel, Key, Rect, RichText, Ui, UiBuilder, pos2};
 use std::path::Path;
 

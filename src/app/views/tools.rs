@@ -4,12 +4,12 @@ use super::following::Following;
 use super::gallery::Gallery;
 use super::probe::ProbeCache;
 use super::tier_drag::TierHand;
-use crate::app::model::Model;
-use crate::app::model::action::{Actions, ViewAction};
-use crate::app::model::motion::WaveCache;
-use crate::app::model::ordering::Orders;
 use crate::app::profile_view::ProfileView;
-use crate::app::studio::Paper;
+use brillianteer_session::model::Model;
+use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::motion::WaveCache;
+use brillianteer_session::model::ordering::Orders;
+use brillianteer_session::studio::Paper;
 
 /// The tools of the views besides the model: pictures, caches, and the state of gestures.
 #[derive(Default)]
@@ -71,8 +71,8 @@ impl Attention {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::model::action::Action;
-    use crate::app::model::workspace::Workspace;
+    use brillianteer_session::model::action::Action;
+    use brillianteer_session::model::workspace::Workspace;
 
     /// Returns the view that an attention reports as the one that commands act on, and the text for the status line.
     fn reported(attention: Attention) -> (Option<usize>, Option<String>) {

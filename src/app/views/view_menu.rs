@@ -2,9 +2,9 @@
 
 use super::pane_context::PaneContext;
 use crate::app::menus::{choose, menu_button, within_window};
-use crate::app::model::action::{DialogAction, ViewAction};
-use crate::app::model::command::Command;
-use crate::app::shows::Shows;
+use brillianteer_session::model::action::{DialogAction, ViewAction};
+use brillianteer_session::model::command::Command;
+use brillianteer_session::shows::Shows;
 use egui::{Response, Ui};
 
 /// The commands that draw an overlay over a picture.

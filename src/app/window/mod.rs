@@ -14,8 +14,8 @@ mod surface;
 use super::icon::icon;
 use super::setup::{PaintedBy, Setup};
 use super::state_file::StateFile;
-use super::urgency;
 use brillianteer_files::mesh_options::MeshOptions;
+use brillianteer_session::urgency;
 use egui::ViewportBuilder;
 use std::path::PathBuf;
 

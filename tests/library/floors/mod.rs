@@ -211,7 +211,7 @@ fn windows(text: &str) -> Vec<&'static str> {
 
 #[test]
 fn the_editors_model_knows_no_window_and_no_thread() {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app/model");
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/session/src/model");
     let paths = sources(&model);
     assert!(paths.len() > 20, "only {} files were seen: the check has lost its eyes", paths.len());
     for path in paths {

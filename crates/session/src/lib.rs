@@ -1,0 +1,18 @@
+//! The editor without its window: its state and what can be done to it, the tasks that take time, and the thread that takes
+//! pictures and figures.
+
+mod described;
+pub mod liquid;
+pub mod lookup;
+pub mod model;
+pub mod pixels;
+pub mod shows;
+pub mod studio;
+pub mod tasks;
+pub mod urgency;
+pub mod value_grid;
+
+// Files that tests of several crates share.
+#[cfg(test)]
+#[path = "../../../tests/common/solids.rs"]
+mod solids;

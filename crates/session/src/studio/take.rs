@@ -1,0 +1,370 @@
+//! Traces one picture.
+
+use super::backgrounds::Backgrounds;
+use super::develop::{developed, map_taken, overlaid};
+use super::effort::Effort;
+use super::jobs::coarser;
+use super::motion::Trails;
+use super::order::{Shot, Slot, TakenPicture};
+use super::undeveloped::{Kept, TracedLight};
+use crate::pixels::Pixels;
+use crate::shows::Shows;
+use brillianteer_base::Failure;
+use brillianteer_base::Watch;
+use brillianteer_paper::rasterize_within;
+use brillianteer_picture::{DiagramStyle, Palette, marked_diagram};
+use brillianteer_render::{Card, Partial, RenderError, Renderer};
+
+/// Traces pictures, and keeps the data that later pictures can use.
+#[derive(Default)]
+pub struct ShotTracer {
+    /// The renderer that does the jobs of shots.
+    pub(super) renderer: Renderer,
+    /// Messages for the user about why the processor does a card's work.
+    pub(super) notes: Vec<String>,
+    /// The pictures behind renders.
+    pub(super) backgrounds: Backgrounds,
+    /// The temporal histories of rough renders of moving bodies.
+    pub(super) trails: Trails,
+    /// The traced light of each view before it is developed.
+    pub(super) kept: Kept,
+}
+
+impl ShotTracer {
+    /// Creates a tracer that may use a card.
+    pub fn by(card: Card) -> Self {
+        Self { renderer: Renderer::new(card), ..Self::default() }
+    }
+
+    /// Traces a picture with an effort, and calls `each` with each stage of a render that grows clearer. Only a rough picture
+    /// is traced under a coarse light.
+    pub fn take(
+        &mut self,
+        (slot, shot): (Slot, &Shot),
+        effort: &Effort,
+        watch: Watch,
+        each: &mut dyn FnMut(TakenPicture),
+    ) -> Result<(), Failure> {
+        let shot = if effort.is_refined() { &*shot.under_whole_light(watch)? } else { shot };
+        match shot.shows {
+            Shows::Profile | Shows::LiquidGlass => Ok(()),
+            Shows::Diagram => drawing(shot).map(each),
+            Shows::Render => self.render((slot, shot), effort, watch, each),
+            Shows::Refraction => self.mapped((slot, shot), effort, watch).map(each),
+            Shows::TracedPane => self.glass(shot, effort, watch).map(each),
+            _ => self.scoped(shot, effort, watch).map(each),
+        }
+    }
+
+    /// Makes the picture of a shot from light that was traced for another shot; `None` where no such light is kept.
+    ///
+    /// # Errors
+    /// Returns [`Failure::Stopped`] where `watch` asks to stop; only overlays ask it.
+    pub fn develop_again(
+        &self,
+        slot: Slot,
+        shot: &Shot,
+        watch: Watch,
+    ) -> Option<Result<TakenPicture, Failure>> {
+        let (_, light) = self.kept.get(&slot).filter(|(kept, _)| kept.has_light_of(shot))?;
+        Some(match light {
+            TracedLight::Render { picture, unresolved, tracer } => {
+                developed(shot, (picture, true), (*unresolved, tracer), watch).map_err(Failure::from)
+            }
+            TracedLight::Map(map) => Ok(map_taken(shot, map.clone())),
+        })
+    }
+
+    fn scoped(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, Failure> {
+        let Some(scoped) = shot.shows.scoped() else { return Err(Failure::Input("no scope".into())) };
+        let scope = scoped.with_head(shot.head);
+        let palette = Palette::of(&scope);
+        let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
+        let is_slow = self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow();
+        let times = if is_slow { effort.coarser_by_single_rays() } else { effort.grain.coarser };
+        job.film = coarser(&shot.film, times);
+        let size = job.film.size;
+        let (mut pixels, mut unresolved) =
+            (Vec::with_capacity(3 * size[0] as usize * size[1] as usize), None);
+        let Self { renderer, notes, .. } = self;
+        let rendered = renderer.run(&job, watch, &mut |part| {
+            match part {
+                Partial::Begun { unresolved: known, .. } => {
+                    pixels.clear();
+                    unresolved = known;
+                }
+                Partial::Rows { rows, first_channel, .. } => {
+                    for y in rows.first..rows.first + rows.count {
+                        palette.encode(rows, first_channel, y, &mut pixels);
+                    }
+                }
+                Partial::Note(why) => notes.push(why.to_owned()),
+                Partial::Picture { .. } | Partial::LightRow { .. } => {}
+            }
+            Ok::<_, Failure>(())
+        })?;
+        let tracer = rendered.backend.kind();
+        // The figure stands for the whole light, and not for the part of the area without a strongest exit.
+        let unresolved = rendered.beams().map_or(unresolved, |beams| Some(beams.unresolved()));
+        let side = size.map(|n| n as usize);
+        let image = match shot.overlay {
+            None => Pixels::opaque(side, &pixels),
+            Some(_) => {
+                let mut rgba: Vec<u8> = pixels.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
+                overlaid(shot, &mut rgba, size, watch)?;
+                Pixels { size: side, rgba }
+            }
+        };
+        Ok(TakenPicture { image, unresolved, tracer, coarser: 1.0, map: None })
+    }
+}
+
+fn drawing(shot: &Shot) -> Result<TakenPicture, Failure> {
+    let stone = shot.specimen.stone().map_err(|e| Failure::Usage(e.to_string()))?;
+    let style = match shot.paper.pixels_per_point.map(f64::from) {
+        Some(scale) => {
+            let points = shot.film.size.map(|pixels| f64::from(pixels) / scale);
+            DiagramStyle::fitting(stone, shot.paper.inks, points)
+        }
+        None => DiagramStyle::sheet(shot.paper.inks),
+    };
+    let text = marked_diagram(stone, &shot.title, &style, &shot.marks).to_string();
+    let (width, height, rgba) =
+        rasterize_within(&text, shot.film.size).map_err(|e| Failure::Input(e.to_string()))?;
+    let image = Pixels { size: [width as usize, height as usize], rgba };
+    Ok(TakenPicture { image, unresolved: None, tracer: "drawn", coarser: 1.0, map: None })
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::liquid::Liquid;
+    use crate::model::document::Document;
+    use crate::model::eye::Eye;
+    use crate::model::framing_fit::FramingFit;
+    use crate::studio::effort::{Grain, Refinement};
+    use crate::studio::jobs::BEHIND;
+    use crate::studio::order::{Paper, Smoothing, Which};
+    use crate::studio::{ShotLight, survey};
+    use brillianteer_base::unwatched;
+    use brillianteer_paper::lighting;
+    use brillianteer_picture::{Bloom, Develop, develop, fxaa};
+    use brillianteer_render::{Quality, Steps};
+    use brillianteer_scene::Background;
+    use brillianteer_scene::BackgroundRef;
+    use brillianteer_scene::{Companions, Glare, Pose, Projection, View};
+    use brillianteer_trace::environment::Lighting;
+    use brillianteer_trace::gpu::Gpu;
+    use glam::DVec2;
+    use std::ops::ControlFlow;
+    use std::path::Path;
+    use std::sync::Arc;
+
+    pub(crate) fn shot(shows: Shows, distance: Option<f64>) -> Shot {
+        let eye = Eye { lean: DVec2::new(0.1, 0.05), ..Eye::default() };
+        let projection =
+            distance.map_or(Projection::Orthographic, |distance| Projection::Perspective { distance });
+        Shot {
+            document: 0,
+            specimen: Arc::clone(Document::first().unwrap().specimen()),
+            title: String::new(),
+            marks: brillianteer_picture::DrawnMarks::default(),
+            shows,
+            strongest: false,
+            glare: Glare::Included,
+            view: View { projection, ..eye.view(None) },
+            film: eye.film([56, 40], &FramingFit::reaching(1.0)),
+            whole: FramingFit::reaching(1.0).film([56, 40]),
+            light: ShotLight::whole(lighting::load("dome").unwrap()),
+            bands: 16,
+            jitter: true,
+            behind: None,
+            strength: 1.0,
+            glow: brillianteer_picture::Bloom::default().strength,
+            bounces: 64,
+            light_turn: 0.0,
+            light_upright: false,
+            copies: vec![Pose::STILL],
+            companions: Companions::default(),
+            distance: BEHIND,
+            smoothing: Smoothing::None,
+            exposure: 0.0,
+            head: 0.0,
+            overlay: None,
+            liquid: Liquid::default(),
+            paper: Paper::default(),
+        }
+    }
+
+    #[test]
+    fn exports_are_planned_as_on_the_command_line() {
+        let planned = |shot: &Shot| if ShotTracer::default().is_slow_render(shot) { "rays" } else { "beams" };
+        assert_eq!(planned(&shot(Shows::Render, None)), "beams");
+        assert_eq!(planned(&shot(Shows::Render, Some(8.0))), "rays", "a perspective");
+        let before = |name: &str| {
+            let behind = BackgroundRef::read(name, Path::new("")).unwrap();
+            planned(&Shot { behind: Some(behind), ..shot(Shows::Render, None) })
+        };
+        assert_eq!(before("page"), "rays", "something hangs behind");
+        assert_eq!(["light", "white"].map(before), ["beams"; 2], "nothing hangs behind");
+    }
+
+    #[test]
+    fn an_exported_render_is_developed_as_on_the_command_line() {
+        let shot = Shot { exposure: -2.0, ..shot(Shows::Render, Some(8.0)) };
+        let mut exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
+        let exported = exported.image(&shot, &unwatched).unwrap();
+        let steps = Steps::Passes { first: 0, hidden: 0 };
+        let job = shot.light_job(None, shot.bands, steps, Quality::of_pictures(true));
+        let rendered = Renderer::default().run(&job, &unwatched, &mut |_| Ok::<_, RenderError>(())).unwrap();
+        let background = Background::Transparent;
+        let manner =
+            Develop { exposure: -2.0, bloom: Some(Bloom::default()), background, ..Develop::default() };
+        let rgba = develop(&rendered.light().unwrap().0, &manner);
+        assert!(rgba.chunks(4).any(|pixel| (1..255).contains(&pixel[3])), "edges are soft");
+        assert_eq!(exported, Pixels { size: exported.size, rgba });
+    }
+
+    /// Takes a picture; without `refinement` a rough one.
+    fn taken(
+        camera: &mut ShotTracer,
+        shot: &Shot,
+        bands: u32,
+        refinement: Option<Refinement>,
+    ) -> TakenPicture {
+        let mut last = None;
+        let effort = Effort { refinement, ..Effort::rough(5e-3, Grain { coarser: 1.0, bands }) };
+        let each = &mut |taken| last = Some(taken);
+        camera.take(((0, Which::Present), shot), &effort, &unwatched, each).unwrap();
+        last.unwrap()
+    }
+
+    /// The mean difference of two pictures' channels, as a fraction of full scale.
+    fn apart(a: &TakenPicture, b: &TakenPicture) -> f64 {
+        assert_eq!(a.image.size, b.image.size);
+        let codes = |t: &TakenPicture| t.image.rgba.clone();
+        let (a, b) = (codes(a), codes(b));
+        let sum: f64 = a.iter().zip(&b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+        sum / (255.0 * a.len() as f64)
+    }
+
+    #[test]
+    fn only_a_rough_picture_is_taken_under_a_coarse_light() {
+        let [whole, map] = ["dome", "ring"].map(|name| lighting::load(name).unwrap());
+        let coarse = ShotLight::coarse(Lighting { map: map.map, ..whole.clone() });
+        let small = shot(Shows::Render, None);
+        let small = Shot { film: coarser(&small.film, 2.0), bands: 3, ..small };
+        let [whole, coarse] = [ShotLight::whole(whole), coarse].map(|light| Shot { light, ..small.clone() });
+        let image = |shot: &Shot, refinement| taken(&mut ShotTracer::default(), shot, 3, refinement).image;
+        assert_ne!(image(&coarse, None), image(&whole, None), "a rough picture takes what is at hand");
+        let refinement = Some(Refinement { samples: 2, after: 0, unresolved: 2e-2 });
+        assert_eq!(image(&coarse, refinement), image(&whole, refinement), "a refined one waits");
+        let exported = |shot: &Shot| {
+            let mut exported = ShotTracer::default().export(shot, &unwatched).unwrap();
+            exported.image(shot, &unwatched).unwrap()
+        };
+        assert_eq!(exported(&coarse), exported(&whole), "an export waits");
+        let [a, b] = [&coarse, &whole].map(|shot| {
+            let shot = Shot { shows: Shows::Refraction, ..shot.clone() };
+            survey(&shot, [1, 1], &unwatched).unwrap().0
+        });
+        assert!(a == b, "a map in files waits");
+        let stop = |_: f64| ControlFlow::Break(());
+        assert!(matches!(coarse.under_whole_light(&stop), Err(Failure::Stopped)));
+    }
+
+    #[test]
+    #[expect(clippy::print_stdout, reason = "tests print what they skip")]
+    fn a_card_shows_what_the_processor_shows() {
+        let gpu = match Gpu::open() {
+            Ok(gpu) => Arc::new(gpu),
+            Err(error) => {
+                assert!(std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_none(), "{error}");
+                println!("SKIPPED a_card_shows_what_the_processor_shows: {error}");
+                return;
+            }
+        };
+        let mut card = ShotTracer::by(Card::Open(gpu));
+        let refinement = Some(Refinement { samples: 16, after: 0, unresolved: 5e-3 });
+        let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
+        let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
+        for (shot, most) in [
+            (shot(Shows::Aset, Some(8.0)), 2e-3),
+            (shot(Shows::Render, Some(8.0)), 4e-3),
+            (shot(Shows::Render, None), 7e-3),
+            (mixed, 4e-3),
+        ] {
+            let (shows, projection) = (shot.shows, shot.view.projection);
+            let [a, b] = [&mut card, &mut ShotTracer::default()].map(|c| taken(c, &shot, 4, refinement));
+            assert_ne!(a.tracer, b.tracer);
+            let other = Shot { view: Eye::default().view(None), ..shot.clone() };
+            let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, 4, refinement), &b));
+            assert!(
+                off < most && wrong > 3.0 * most,
+                "{shows:?} {projection:?}: {off}, and {wrong} of another view"
+            );
+        }
+    }
+
+    #[test]
+    fn under_a_new_name_it_is_another_drawing_and_the_same_light() {
+        for (shows, is_same) in [(Shows::Diagram, false), (Shows::Aset, true), (Shows::Render, true)] {
+            let shot = shot(shows, None);
+            let renamed = Shot { title: "another".to_owned(), ..shot.clone() };
+            assert_eq!(shot == renamed, is_same, "{shows:?}");
+        }
+    }
+
+    #[test]
+    fn strongest_exits_and_the_head_make_another_picture_only_in_scopes_that_show_them() {
+        for (shows, is_same) in [
+            (Shows::Render, [true; 2]),
+            (Shows::Refraction, [true; 2]),
+            (Shows::Diagram, [true; 2]),
+            (Shows::Hearts, [false, true]),
+            (Shows::Aset, [false; 2]),
+        ] {
+            let shot = shot(shows, None);
+            let [strongest, head] =
+                [Shot { strongest: true, ..shot.clone() }, Shot { head: 10.0, ..shot.clone() }];
+            assert_eq!([shot == strongest, shot == head], is_same, "{shows:?}");
+            let is_light = matches!(shows, Shows::Render | Shows::Refraction);
+            assert_eq!([shot.has_light_of(&strongest), shot.has_light_of(&head)], [is_light; 2], "{shows:?}");
+        }
+    }
+
+    #[test]
+    fn fxaa_smooths_rough_renders_and_leaves_refined_ones_as_they_are() {
+        let plain = shot(Shows::Render, None);
+        let smooth = Shot { smoothing: Smoothing::Fxaa, ..plain.clone() };
+        let mut camera = ShotTracer::default();
+        let mut image = |shot: &Shot, refinement| taken(&mut camera, shot, 4, refinement).image;
+        assert_ne!(image(&plain, None), image(&smooth, None), "a rough picture");
+        let refinement = Some(Refinement { samples: 4, after: 0, unresolved: 2e-3 });
+        let refined = image(&plain, refinement);
+        assert_eq!(refined, image(&smooth, refinement), "a refined picture");
+        let mut blurred = refined.rgba.clone();
+        fxaa(&mut blurred, refined.size[0] as u32);
+        assert_ne!(refined.rgba, blurred, "FXAA would change it");
+        // Light that is developed again is that of a refined picture.
+        let slot = (0, Which::Present);
+        let brighter = Shot { exposure: 1.0, ..smooth };
+        let again = camera.develop_again(slot, &brighter, &unwatched);
+        let light = camera.kept.get(&slot).map(|(_, light)| light);
+        let (Some(Ok(again)), Some(TracedLight::Render { picture, .. })) = (again, light) else { panic!() };
+        let unsmoothed = Shot { smoothing: Smoothing::None, ..brighter };
+        let expected = developed(&unsmoothed, (picture, true), (0.0, ""), &unwatched).unwrap();
+        assert_eq!(again.image, expected.image, "developed again");
+    }
+
+    #[test]
+    fn a_rough_render_looks_like_the_fine_one() {
+        let shot = shot(Shows::Render, None);
+        let refinement = Some(Refinement { samples: 4, after: 0, unresolved: 2e-3 });
+        let mut camera = ShotTracer::default();
+        let rough = taken(&mut camera, &shot, 4, None);
+        let fine = taken(&mut camera, &shot, 16, refinement);
+        let off = apart(&rough, &fine);
+        assert!(off < 0.03, "{off}");
+    }
+}
