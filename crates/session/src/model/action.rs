@@ -59,7 +59,9 @@ pub enum Action {
 /// A change of the work, which undo takes back. Each variant holds the new value.
 #[derive(Debug)]
 pub enum Edit {
+    /// The design's name.
     Name(String),
+    /// The cut.
     Cut(Cut),
     /// The key of the row that was edited, and the cut with the new proportion.
     Proportion(&'static str, Cut),
@@ -96,6 +98,7 @@ pub enum Edit {
     },
     /// Adds a tier after the one at a place, beside the stone.
     AddTier(Option<usize>),
+    /// The stone's material.
     Material(MaterialRef),
     /// Takes cut, material and notes of a design that was fitted to another material.
     Fitted(Box<Design>),
@@ -111,8 +114,11 @@ pub enum Edit {
     Movement(Movement),
     /// Sets the metal and the roughness of bodies, which are given by their places in the scene's list of metal.
     Finish {
+        /// The places of the bodies in the file.
         bodies: Vec<usize>,
+        /// The metal that they become.
         metal: Metal,
+        /// The roughness of the metal, 0 to 1.
         roughness: f64,
     },
     /// Sets the numbers of the scene's ring; its metal and the places of its stones follow.
@@ -133,6 +139,7 @@ pub enum Edit {
 /// [`ViewHistory`](super::view_history::ViewHistory).
 #[derive(Debug)]
 pub enum ViewAction {
+    /// What a view shows from now on.
     Show(usize, Shows),
     /// Moves the eye of a view: its own, or that of all linked views.
     Eye(usize, Eye),
@@ -140,6 +147,7 @@ pub enum ViewAction {
     Link(usize, bool),
     /// Shows a view alone, or all views again if it is alone.
     Enlarge(usize),
+    /// A view is seen from afar again.
     EndPerspective(usize),
     /// Sets the overlay over all pictures by its name; `None` for none.
     Overlay(Option<String>),
@@ -161,6 +169,7 @@ pub enum ViewAction {
     Hover(usize),
     /// Sets the text of the status line about the thing under the pointer.
     Message(String),
+    /// The keys that are held down.
     Keys(HeldKeys),
     /// Sets the distance of the eye in perspective from the origin, girdle radii.
     Distance(f64),
@@ -172,8 +181,11 @@ pub enum ViewAction {
     ByArea(bool),
     /// Opens or folds a panel; where there is room for only one, the other folds.
     Panel {
+        /// The panel.
         side: PanelSide,
+        /// Whether the window has room for both panels.
         has_room_for_both: bool,
+        /// Whether the panel is open now.
         is_open: bool,
     },
     /// Lets time run for copies and plates by so many seconds.
@@ -248,11 +260,15 @@ pub enum DialogAction {
     Forget,
     /// Reads the file again that another program has changed.
     ReadAgain,
+    /// The text of the dialog.
     Type(String),
     /// Takes the typed path as the answer.
     Accept,
+    /// The page of the dialog about the program.
     AboutPage(AboutPage),
+    /// The text that is searched for among the licences.
     AboutSearch(String),
+    /// What is to be exported.
     Select(Selection),
     /// Sets the folder that an export writes to.
     Folder(PathBuf),
@@ -309,6 +325,7 @@ pub enum Computed {
     Light(String, Result<ShotLight, Failure>),
     /// Figures of the present or of the other design, with the order that they answer.
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
+    /// Figures against tilt, and the order that they answer.
     Tilts(FiguresOrder, Tilts),
     /// Points of the sweep of this number.
     Swept(u64, Vec<SweptPoint>),
@@ -344,6 +361,7 @@ pub struct FrameEnd {
 pub struct Actions(Vec<Action>);
 
 impl Actions {
+    /// Adds an action behind those that are there.
     pub fn push(&mut self, action: impl Into<Action>) {
         self.0.push(action.into());
     }

@@ -87,6 +87,7 @@ pub enum Command by keys {
 
 /// A menu of the menu bar.
 pub struct Menu {
+    /// The title of the menu.
     pub title: &'static str,
     /// The commands in the menu, in groups.
     pub groups: &'static [&'static [Command]],

@@ -92,9 +92,11 @@ impl Dialog {
 /// A path that the user types.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathForm {
+    /// What the text is for.
     pub purpose: Purpose,
     /// The number of the document that the path is for.
     pub document: u64,
+    /// The text so far.
     pub text: String,
     /// True once anyone has typed: Return does not accept a path that was only suggested.
     pub is_typed: bool,
@@ -125,6 +127,7 @@ pub enum AboutPage {
 /// The state of the About dialog.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct AboutForm {
+    /// The page in sight.
     pub page: AboutPage,
     /// The search text: the list shows the crates whose name or licence contains it.
     pub sought: String,

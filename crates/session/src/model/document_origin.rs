@@ -12,14 +12,17 @@ use std::path::PathBuf;
 /// A preset that takes the place of a design is a step of undo, so a document may have several.
 #[derive(Debug, Clone)]
 pub struct DocumentOrigin {
+    /// The design as it is saved.
     pub saved: Design,
     /// The copies and their companions as they were opened, or as they were last written as a scene.
     pub laid: (Copies, Companions),
     /// The settings of pictures with which the design was opened.
     pub first: RenderSettings,
+    /// The file; `None` before the design is saved for the first time.
     pub path: Option<PathBuf>,
     /// The name of the scene whose stone is edited.
     pub scene: Option<String>,
+    /// The state of the file when it was read or written.
     pub stamp: Stamp,
     /// True where the file no longer exists.
     pub is_lost: bool,

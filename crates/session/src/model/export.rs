@@ -22,7 +22,9 @@ use std::sync::Arc;
 /// The selection in the export dialog.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selection {
+    /// The views to export.
     pub views: Vec<Shows>,
+    /// The formats to write.
     pub formats: Vec<OutputFormat>,
     /// True where a refraction map is written, with a page that shows it.
     pub map: bool,
@@ -94,11 +96,13 @@ pub struct ExportPlan {
     pub own: Vec<(Shows, PictureAspect)>,
     /// The part of space that renders show in the window; `None` where they show the stone alone and at rest.
     pub room: Option<SceneRoom>,
+    /// What was selected.
     pub selection: Selection,
     /// How plates move, for the scene file.
     pub movement: Movement,
     /// The light, as scene files name it.
     pub light: PathBuf,
+    /// The folder of the files.
     pub folder: PathBuf,
     /// The files of the cutter's sheet, as [`list_sheet`](Self::list_sheet) found them; none where none is written.
     pub sheet_files: Vec<PathBuf>,

@@ -8,6 +8,7 @@ use std::time::Duration;
 /// The state of the export dialog.
 #[derive(Debug, Clone)]
 pub struct ExportForm {
+    /// What is being exported.
     pub plan: ExportPlan,
     /// The export that is under way or has ended.
     pub run: Option<ExportRun>,

@@ -9,7 +9,9 @@ use std::collections::HashMap;
 pub struct ShownFigures {
     /// The order that the figures answer.
     pub order: FiguresOrder,
+    /// How fine the figures are.
     pub grade: Grade,
+    /// The figures.
     pub figures: Figures,
 }
 

@@ -8,6 +8,7 @@ use brillianteer_scene::SpecimenError;
 pub struct RowMessage {
     /// The row that shows the message.
     pub row: &'static Proportion,
+    /// The message.
     pub text: String,
 }
 

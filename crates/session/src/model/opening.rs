@@ -22,7 +22,9 @@ pub enum OpeningPurpose {
 /// A file that is to be read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileRequest {
+    /// What the file is read for.
     pub purpose: OpeningPurpose,
+    /// The file.
     pub path: PathBuf,
     /// The options by which a mesh is read.
     pub mesh: MeshOptions,
@@ -38,6 +40,7 @@ impl FileRequest {
 /// A file that is being opened.
 #[derive(Debug, Clone)]
 pub struct Opening {
+    /// The request that is answered.
     pub request: FileRequest,
     /// The work as it was when the file was requested.
     pub work: Work,
@@ -55,6 +58,8 @@ impl Opening {
 /// The content of a file.
 #[derive(Debug, Clone)]
 pub enum OpenedFile {
+    /// A design as a document.
     Design(Box<Document>),
+    /// A scene.
     Scene(Box<Preset>),
 }

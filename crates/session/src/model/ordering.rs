@@ -13,6 +13,7 @@ pub type Seen = (usize, [u32; 2]);
 
 /// Makes the orders of a model's pictures.
 pub struct Orders<'a> {
+    /// The state of the editor.
     pub model: &'a Model,
     /// The phases of waving plates that were made for earlier orders.
     pub waves: &'a mut WaveCache,

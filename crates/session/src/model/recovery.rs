@@ -65,6 +65,7 @@ impl KeptCompanions {
 pub struct KeptScene {
     // Autosaves of earlier versions name the copies so.
     #[serde(alias = "company")]
+    /// The copies of the design.
     pub copies: Copies,
     /// The companions of the copies; autosaves of earlier versions have none.
     #[serde(default)]
@@ -83,6 +84,7 @@ pub struct KeptScene {
 /// The content of an autosave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnsavedWork {
+    /// The work.
     pub work: Work,
     /// The scene around the stone.
     pub around: KeptScene,
@@ -95,6 +97,7 @@ pub struct UnsavedWork {
 /// Work that is found when the program starts: left by a crash, or open when the program ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecoveredWork {
+    /// The design.
     pub design: Design,
     /// The part of the scene that was kept.
     pub around: KeptScene,

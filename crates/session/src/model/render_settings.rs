@@ -71,18 +71,31 @@ impl Default for RenderSettings {
 /// A change of one of the settings, with the new value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SettingChange {
+    /// The name or the file of the light.
     Light(String),
+    /// The light's turn about the vertical, degrees.
     LightTurn(f64),
+    /// True where the light stands upright.
     LightUpright(bool),
+    /// The exposure, stops.
     Exposure(f64),
+    /// The number of bands of wavelengths.
     Wavelengths(u32),
+    /// The strength of the glow.
     Glow(f64),
+    /// The number of bounces after which rays end.
     Bounces(u32),
+    /// The background by its name; `None` for the light itself.
     Background(Option<String>),
+    /// The distance of the background, mm; `None` for the usual one.
     BackgroundMm(Option<f64>),
+    /// The strength of refraction and dispersion, 1 for physics.
     Strength(f64),
+    /// How edges are smoothed.
     Smoothing(Smoothing),
+    /// The half angle of the observer's head, degrees.
     Head(f64),
+    /// The pane of liquid glass.
     Liquid(Box<Liquid>),
 }
 

@@ -28,7 +28,9 @@ impl Stamp {
 pub struct SaveRequest {
     /// The number of the design's document.
     pub document: u64,
+    /// The file.
     pub path: PathBuf,
+    /// The design.
     pub design: Design,
     /// A stone of the design; its name may be out of date.
     pub specimen: Arc<Specimen>,
@@ -37,7 +39,9 @@ pub struct SaveRequest {
 /// A design that has been saved.
 #[derive(Debug)]
 pub struct SavedDesign {
+    /// The file.
     pub path: PathBuf,
+    /// The design that was written.
     pub design: Design,
     /// The file as it is now.
     pub stamp: Stamp,

@@ -34,9 +34,11 @@ use std::path::PathBuf;
 pub struct LoadedLight {
     /// The name of the light that renders show, or its file.
     pub name: String,
+    /// The light that pictures are made under.
     pub at_hand: ShotLight,
     /// The light that the program last tried to load. Where loading failed, `name` is still the one before.
     pub tried: String,
+    /// The name of the light that is being loaded.
     pub loading: Option<String>,
 }
 
@@ -117,6 +119,7 @@ pub struct Session {
     pub framing: Framing,
     /// The history of tilts, zooms, layouts and overlays.
     pub views: ViewHistory,
+    /// The light, and the one that is being loaded.
     pub light: LoadedLight,
     /// The design that the present one is compared with.
     pub compared: Option<Compared>,
@@ -142,6 +145,7 @@ pub struct Session {
     pub picking: Option<MeetPick>,
     /// The reason why the meet of each tier could not be followed after the last change; `None` where it was.
     pub meet_faults: Vec<Option<String>>,
+    /// The metal of a ring that is being made.
     pub ring: RingMaking,
     /// The audit of the stone, while its list is open.
     pub audit: SessionAudit,
@@ -159,19 +163,24 @@ pub struct Session {
     pub lights_drawn: u64,
     /// The text of the status line while the pointer is over a picture.
     pub message: String,
+    /// What the status line says.
     pub notes: Notes,
+    /// The dialog in sight.
     pub dialog: Option<Dialog>,
     /// The last selection in the export dialog.
     pub selection: Selection,
     /// The view under the pointer, or the one that was under it last.
     pub hovered: usize,
+    /// The keys that are held down.
     pub keys: HeldKeys,
+    /// What tasks have been asked for and not answered.
     pub awaited: Awaited,
     /// The number of documents begun so far. The present document has it as its number, so that no answer for another
     /// is taken for it.
     pub begun: u64,
     /// The action that waits until the design is saved.
     pub after_save: Option<Then>,
+    /// What is known of unsaved work that is kept.
     pub safe: SafeWork,
     /// The stamp of the open file as last seen on disk, where it differs from that of the document.
     pub on_disk: Option<Stamp>,

@@ -18,7 +18,9 @@ use std::sync::Arc;
 pub enum Task {
     /// Load a light by its name or file.
     LoadLight(String),
+    /// Reads a file.
     Read(FileRequest),
+    /// Writes a design.
     Save(Box<SaveRequest>),
     /// Ask the user for a file by the system's dialog.
     ChooseFile(Question),
@@ -64,12 +66,14 @@ pub enum Task {
     StopSearch,
     /// Trace the pictures and figures of all views in sight.
     Trace(Box<Order>),
+    /// What the window alone can do.
     Window(WindowTask),
 }
 
 /// A piece of work that only the window can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WindowTask {
+    /// Closes the window.
     Close,
     /// Stay open, though the system asks the window to close.
     StayOpen,

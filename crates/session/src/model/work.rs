@@ -10,6 +10,7 @@ use std::sync::Arc;
 /// Everything that undo restores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Work {
+    /// The design.
     pub design: Design,
     /// The copies of the stone in renders.
     pub copies: Copies,
@@ -28,7 +29,9 @@ pub struct Work {
 /// A mesh file, and the options by which it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadMesh {
+    /// The file.
     pub path: PathBuf,
+    /// The options by which the file was read.
     pub options: MeshOptions,
     /// How each solid of the file is called, where it has several.
     pub parts: Vec<String>,

@@ -43,8 +43,11 @@ pub struct Shot {
     pub strongest: bool,
     /// Included where a scope that shows energy contains glare.
     pub glare: Glare,
+    /// The view.
     pub view: View,
+    /// The film.
     pub film: Film,
+    /// The light.
     pub light: ShotLight,
     /// The exposure of a render, in stops.
     pub exposure: f64,
@@ -171,7 +174,9 @@ impl Shot {
 pub struct FiguresOrder {
     /// The number of the document that was open when the figures were ordered; it changes no figure.
     pub document: u64,
+    /// The stone.
     pub specimen: Arc<Specimen>,
+    /// The view.
     pub view: View,
     /// The half angle of the observer's head, in degrees; 0 for no head.
     pub head: f64,
@@ -208,7 +213,9 @@ pub type SweptPoint = (usize, Arc<Result<SweptStone, SweepError>>);
 /// Everything that the editor shows at one moment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Order {
+    /// The pictures in sight, each with its place.
     pub shots: Vec<(Slot, Shot)>,
+    /// The figures that are wanted.
     pub figures: Vec<(Which, FiguresOrder)>,
     /// Figures against tilt, for a view whose own tilt does not matter.
     pub tilts: Option<FiguresOrder>,
@@ -248,7 +255,9 @@ pub type Tilts = Vec<(f64, Figures)>;
 /// An answer of the studio.
 #[derive(Debug)]
 pub enum Answer {
+    /// A picture of a view.
     Picture(Slot, Box<Shot>, Grade, TakenPicture),
+    /// Figures of the light.
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
     /// Figures against tilt.
     Tilts(FiguresOrder, Tilts),
