@@ -355,8 +355,6 @@ fn triangles_across_edges_make_no_facets_where_there_is_no_noise() {
     let found = found(&scan(20_000), &emerald);
     assert_eq!(found.faces.len(), emerald.len());
     assert!(found.faces.iter().all(|face| face.error.is_some() && !face.is_bent) && !found.is_uncertain);
-    // Too few corners lie on the cut corners of its girdle.
-    assert!(read(&scan(5_000), &cut("princess")).is_none());
 }
 
 #[test]

@@ -13,9 +13,9 @@ pub fn nearest<'k>(asked: &str, known: &[&'k str]) -> Option<&'k str> {
 /// Returns the number of slips of typing that make one name of another: letters that are missing, added, wrong or swapped. `None`
 /// if there are so many that it is another word.
 pub fn slips(asked: &str, name: &str) -> Option<usize> {
-    // One slip in three letters is still a slip.
+    // Two slips in five letters are still slips.
     let letters = asked.chars().count();
-    let most = (letters / 3).min(3);
+    let most = (2 * letters / 5).min(3);
     // Names of very different lengths are not compared, since the asked one may be as long as a file.
     let is_alike = name.chars().count().abs_diff(letters) <= most;
     is_alike.then(|| strsim::damerau_levenshtein(asked, name)).filter(|slips| *slips <= most)
@@ -31,6 +31,7 @@ mod tests {
         let pairs = [("rig", Some("ring")), ("raw", Some("row")), ("prcael", Some("parcel"))];
         for (asked, near) in pairs.into_iter().chain([
             ("round_brlint", Some("round_brilliant")),
+            ("rings", Some("ring")),
             ("pin", None),
             ("ro", None),
             ("rain", None),
