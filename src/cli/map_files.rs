@@ -130,7 +130,7 @@ impl MapFiles<'_> {
     /// Returns the bytes of the pattern's or photograph's file for the page. Where the page cannot take them, it returns
     /// `None` and prints a note.
     fn page_background(&self) -> Result<Option<Vec<u8>>, Failure> {
-        let Some(bytes) = background::bytes(&self.background)? else { return Ok(None) };
+        let Some(bytes) = background::bytes(self.background)? else { return Ok(None) };
         if takes(&bytes) {
             return Ok(Some(bytes));
         }

@@ -1,6 +1,9 @@
 //! What every room shares: work that can be watched and stopped, faults in what people wrote, with their places, and names that
 //! are nearly what was asked for.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 mod at_once;
 mod failure;
 mod fault;

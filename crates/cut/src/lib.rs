@@ -5,6 +5,9 @@
 //! table, z = 0 at the crown-side girdle, girdle radius 1. Impossible numbers are errors that name their limit; unusual ones
 //! are warnings.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 pub mod audit;
 mod beyond_gear;
 mod class_estimate;

@@ -1,6 +1,9 @@
 //! Files of designs, meshes, scenes, lights, scopes and panoramas, in and out. The path `-` is standard input and output
 //! everywhere.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 #[cfg(feature = "interchange")]
 pub mod asc;
 #[cfg(feature = "interchange")]

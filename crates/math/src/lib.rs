@@ -1,5 +1,8 @@
 //! Geometry: planes, convex solids, convex polygons, triangles and implicit surfaces, in f64.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 mod affine;
 mod ball;
 mod basis;

@@ -2,6 +2,9 @@
 //!
 //! `measure()` of the crate `render` takes a design to its figures in one call.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 mod bow_tie;
 mod brilliant_proportions;
 mod derivatives;

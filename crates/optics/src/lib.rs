@@ -5,6 +5,9 @@
 //! nanometres unless the name says `um`; directions are unit vectors *of travel*; `eta` = index on the incident side
 //! / index on the transmitted side; total internal reflection is a value (`None`), never an error.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 pub mod absorption;
 pub mod colour;
 pub mod dispersion;

@@ -8,6 +8,9 @@
 //! changes, a whole panel with each number; dream-soft-render 1.0 has no linear filter and at most 1280 × 720
 //! pixels.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 mod area;
 mod blend;
 mod damage;

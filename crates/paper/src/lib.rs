@@ -1,6 +1,9 @@
 //! What goes out: pictures, animations, drawings, cutters' sheets, plots and reports as files, and the light and the background
 //! that they show.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 mod animation;
 pub mod background;
 #[cfg(feature = "interchange")]

@@ -1,5 +1,8 @@
 //! Pictures. A picture combines a view, a scope and a reading of the light; `trace` does the tracing itself.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 mod bloom;
 mod by_beams;
 #[cfg(feature = "gpu")]

@@ -1,6 +1,9 @@
 //! Does jobs. A [`Job`] is plain data: the scene, the view, the film, the product and the quality. A
 //! [`Renderer`] makes the product, by the tracer that [`Renderer::plan`] alone chooses.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 mod beam_cache;
 mod behind_glass;
 mod card;

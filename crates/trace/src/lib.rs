@@ -4,6 +4,9 @@
 //! A tracer answers with energy by direction, or by the response that each channel and band of wavelengths is
 //! given, never with a colour of its own.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 pub mod beam;
 mod dispersed_ray;
 pub mod environment;

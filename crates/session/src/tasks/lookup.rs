@@ -135,7 +135,7 @@ impl Backgrounds {
             Some((_, levels)) => levels,
             None => {
                 let no_picture = || Failure::Input("the background is not a picture".to_owned());
-                let reading = background::picture_watched(&background, PATTERN_SIDE / 2, watch)?
+                let reading = background::picture_watched(background, PATTERN_SIDE / 2, watch)?
                     .ok_or_else(no_picture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }
