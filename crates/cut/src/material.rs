@@ -1,4 +1,4 @@
-//! The material of a stone in a cut file. [`optics`] describes the materials themselves.
+//! The material of a stone in a cut file. [`brillianteer_optics`] describes the materials themselves.
 
 use brillianteer_optics::{
     Dispersion, DispersionError, INDICES, INDICES_IN_WORDS, Material, UnknownMaterial, VISIBLE_NM,

@@ -1,6 +1,6 @@
 //! Paints the window on the processor, where there is no graphics card: turns egui's triangles into an image in memory.
 //!
-//! Only what differs from the last image is painted: [`damage`] finds the areas, by a hash of all pieces that are seen in
+//! Only what differs from the last image is painted: `damage` finds the areas, by a hash of all pieces that are seen in
 //! each tile of the image. The image is that of egui's painter for graphics cards, except for rounding; the tests say how
 //! much rounding may change.
 //!

@@ -15,7 +15,7 @@ const MOST_BYTES: usize = 128 << 20;
 
 /// The memory of the beams of all sets and of the set that is being traced, bytes, if that one takes no more than the largest set
 /// that is kept.
-const WITH_NEXT_BYTES: usize = 400 << 20;
+const WITH_NEXT_BYTES: usize = 384 << 20;
 
 /// Beams that several pictures share.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! Opens the window: a graphics card paints it where there is one, else the processor does.
 //!
 //! A driver that computes on the processor (Mesa's llvmpipe, Microsoft's Basic Render Driver) counts as no card: it needs
-//! many times as long to paint a window as [`painter`](super::painter), on the cores that trace light.
+//! many times as long to paint a window as [`Painter`](brillianteer_painter::Painter), on the cores that trace light.
 //!
 //! The window's place and the editor's state are kept in the same file whoever paints.
 

@@ -136,7 +136,10 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, Failure> {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+pub(crate) use tests::shot;
+
+#[cfg(test)]
+mod tests {
     use super::*;
     use crate::liquid::Liquid;
     use crate::model::document::Document;

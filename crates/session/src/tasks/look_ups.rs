@@ -57,7 +57,7 @@ impl Outside {
 mod tests {
     use super::*;
     use crate::shows::Shows;
-    use crate::studio::take::tests::shot;
+    use crate::studio::take::shot;
     use crate::studio::{Grade, Which};
     use crate::tasks::files::by_dialog;
     use std::time::Duration;

@@ -54,7 +54,7 @@ impl BeamOptions {
 
 /// Returns the usual limit of the memory of beams, bytes. With it, a program stays below 500 MB.
 fn usual_memory() -> usize {
-    400 << 20
+    384 << 20
 }
 
 /// The memory that measures and pictures compute of each beam, bytes: the directions of two colours, the strongest exits, and
