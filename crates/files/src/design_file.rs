@@ -5,7 +5,7 @@
 //! [`ImportedDesign`] (with warnings for what the program does not hold) and `write` to an [`EncodedDesign`] (with
 //! what the format cannot hold). No input may panic. Add a variant of [`DesignFormat`] with its place in `ALL`, its
 //! ending and its arms in `read_with` and `written`; then the endings in messages (`src/cli/convert.rs`,
-//! `optimise.rs` and `retarget.rs` there, `src/app/model/update/files.rs`), the readers of tests/library/fuzz.rs,
+//! `optimise.rs` and `retarget.rs` there, `crates/session/src/model/update/files.rs`), the readers of tests/library/fuzz.rs,
 //! and docs/formats.md.
 
 use super::cut_file;

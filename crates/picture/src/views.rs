@@ -2,7 +2,7 @@
 //!
 //! To add a picture of exports, add a variant of `Picture` and a row to `PICTURES`. The compiler asks for most arms
 //! in `crates/paper/src/export.rs`, `crates/paper/src/export/pictures.rs` and `src/cli/lists.rs`; look also at each
-//! `Picture::Scoped` in `export.rs`. The editor shows a picture by a row of `src/app/shows.rs` with the same key. A
+//! `Picture::Scoped` in `export.rs`. The editor shows a picture by a row of `crates/session/src/shows.rs` with the same key. A
 //! scope of one's own needs no code: it is a file.
 
 use brillianteer_scene::{ASET_CONE, Backing, Scope, Side, VIEWER_CONES_DEG};

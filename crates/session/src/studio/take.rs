@@ -242,13 +242,17 @@ mod tests {
         last.unwrap()
     }
 
-    /// The mean difference of two pictures' channels, as a fraction of full scale.
+    /// The mean difference of two pictures' channels as they are seen, as a fraction of full scale: where nothing is covered, no
+    /// colour is seen.
     fn apart(a: &TakenPicture, b: &TakenPicture) -> f64 {
         assert_eq!(a.image.size, b.image.size);
-        let codes = |t: &TakenPicture| t.image.rgba.clone();
-        let (a, b) = (codes(a), codes(b));
-        let sum: f64 = a.iter().zip(&b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
-        sum / (255.0 * a.len() as f64)
+        let seen = |taken: &TakenPicture| -> Vec<f64> {
+            let pixels =
+                taken.image.rgba.as_chunks::<4>().0.iter().map(|pixel| pixel.map(|c| f64::from(c) / 255.0));
+            pixels.flat_map(|[r, g, b, cover]| [r * cover, g * cover, b * cover, cover]).collect()
+        };
+        let (a, b) = (seen(a), seen(b));
+        a.iter().zip(&b).map(|(a, b)| (a - b).abs()).sum::<f64>() / a.len() as f64
     }
 
     #[test]
