@@ -23,18 +23,6 @@
 // A test may list as many cases as it has.
 #![cfg_attr(test, allow(clippy::too_many_lines))]
 
-// Files of the tests that the library shares with the programs in `tests/` name it.
-#[cfg(test)]
-extern crate self as brillianteer;
-#[cfg(test)]
-#[path = "../tests/common/proportions.rs"]
-mod random;
-#[cfg(test)]
-#[path = "../tests/common/solids.rs"]
-mod solids;
-
-#[cfg(feature = "app")]
-pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 /// Files, in and out.
@@ -46,6 +34,9 @@ pub mod io {
 /// What every room shares: work that can be watched and stopped, and faults in files.
 pub use brillianteer_base as base;
 pub use brillianteer_cut as cut;
+/// The editor's window.
+#[cfg(feature = "app")]
+pub use brillianteer_editor as app;
 pub use brillianteer_math as math;
 pub use brillianteer_measure as measure;
 pub use brillianteer_optics as optics;
