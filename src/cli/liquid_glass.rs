@@ -81,7 +81,7 @@ pub struct LiquidGlass {
     /// Write the pane alone, with alpha, and no background around it
     #[arg(long)]
     alone: bool,
-    /// Write liquid-glass.exr as well: linear light, premultiplied by alpha (a PNG's alpha is straight)
+    /// Write an .exr beside the picture: linear light, premultiplied by alpha (a PNG's alpha is straight)
     #[arg(long)]
     exr: bool,
     /// Print how long each part takes in each quality, and how far the qualities are apart

@@ -13,7 +13,6 @@ use brillianteer_measure::MeasureName;
 use brillianteer_optics::{Dispersion, Material};
 use brillianteer_render::SweepKey;
 use brillianteer_scene::Stone;
-use brillianteer_scene::{self};
 use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::path::Path;

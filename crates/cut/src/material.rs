@@ -38,7 +38,7 @@ pub enum MaterialError {
         /// The index as given.
         value: f64,
     },
-    /// A law that gives an index above 5 at some wavelength.
+    /// A law that gives an index above those of [`INDICES`] at some wavelength.
     #[error("{key}: the index {value} at {nm} nm must be at most {}; check the coefficients", INDICES.end())]
     IndexAt {
         /// The key at fault.

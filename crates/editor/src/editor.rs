@@ -104,7 +104,10 @@ impl Editor {
                 editor.is_starting = true;
             }
             (None, Some(found), _) => editor.act(FileAction::Restore(Box::new(found))),
-            (None, None, Some(path)) => editor.act(first(path, setup.mesh)),
+            (None, None, Some(path)) => {
+                editor.act(first(path, setup.mesh));
+                editor.is_starting = true;
+            }
             (None, None, None) => {}
         }
         editor.act(editor.outside.found());

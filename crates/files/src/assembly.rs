@@ -309,11 +309,12 @@ fn read_cuts(file: &Path, scene: &SceneFile, mesh: &MeshOptions) -> Result<ReadC
             cuts.take(key, read);
         }
     }
-    for (key, cut, line) in scene.ring.iter().flat_map(ring::cuts) {
+    for (key, cut, line, is_sized) in scene.ring.iter().flat_map(ring::cuts) {
         let own = (cut.to_owned(), MeshPart::Found);
         if !cuts.specimens.contains_key(&own) {
             let at = |message: &str| ring::at_ring(file, line, &format!("{key}: {message}"));
-            let read = built(file, cut, mesh).map_err(|failure| failed(failure, &at))?;
+            let mesh = if is_sized { mesh.clone().of_any_size() } else { mesh.clone() };
+            let read = built(file, cut, &mesh).map_err(|failure| failed(failure, &at))?;
             cuts.take(own, read);
         }
     }

@@ -117,7 +117,9 @@ pub(super) fn has_keys(bytes: &[u8]) -> bool {
     let is_key = |c: char| c.is_alphanumeric() || "_-.\"' ".contains(c);
     let has_key = |line: &str| match line.split_once('=') {
         Some((key, _)) => !key.trim().is_empty() && key.trim().chars().all(is_key),
-        None => line.starts_with('[') && line.ends_with(']'),
+        None => {
+            line.starts_with('[') && line.split('#').next().is_some_and(|name| name.trim_end().ends_with(']'))
+        }
     };
     let text = String::from_utf8_lossy(&text);
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));

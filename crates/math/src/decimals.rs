@@ -23,8 +23,11 @@ pub fn fixed(number: f64, decimals: usize) -> String {
 const LEAST_BOUND: f64 = 1e-6;
 
 /// Formats the size of a bound or an error as a plain decimal with two significant digits, rounded up; one below a millionth as a
-/// millionth.
+/// millionth, and one that is no number as `unknown`.
 pub fn at_most(bound: f64) -> String {
+    if !bound.is_finite() {
+        return "unknown".to_owned();
+    }
     let size = bound.abs().max(LEAST_BOUND);
     // Behind the second digit; rounding must not raise a number of two digits.
     let decimals = (1.0 - size.log10().floor()).max(0.0);

@@ -40,7 +40,8 @@ impl Sweep {
         watch: Watch,
         mut each: impl FnMut(usize, Result<SweptStone, SweepError>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let parts: Vec<usize> = PARTS.into_iter().filter(|parts| *parts >= fewest_parts).collect();
+        let parts: Vec<usize> =
+            PARTS.into_iter().filter(|parts| *parts >= fewest_parts.min(PARTS[0])).collect();
         let points: Vec<usize> = points.into_iter().collect();
         let (all, done) = (points.len().max(1) as f64, AtomicUsize::new(0));
         let watch = |_: f64| watch(done.load(Ordering::Relaxed) as f64 / all);

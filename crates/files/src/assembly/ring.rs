@@ -28,10 +28,10 @@ struct Gem<'a> {
     diameter_mm: f64,
 }
 
-/// Returns the cuts of a ring's stones, each with its key and the line of the ring.
-pub(super) fn cuts(entry: &RingEntry) -> impl Iterator<Item = (&'static str, &str, usize)> {
-    let cuts = [("stone", &entry.stone), ("small_stone", &entry.small_stone)];
-    cuts.into_iter().filter_map(|(key, cut)| Some((key, cut.as_deref()?, entry.line)))
+/// Returns the cuts of a ring's stones, each with its key, the line of the ring, and whether the ring gives its size.
+pub(super) fn cuts(entry: &RingEntry) -> impl Iterator<Item = (&'static str, &str, usize, bool)> {
+    let cuts = [("stone", &entry.stone, entry.size.is_some()), ("small_stone", &entry.small_stone, true)];
+    cuts.into_iter().filter_map(|(key, cut, is_sized)| Some((key, cut.as_deref()?, entry.line, is_sized)))
 }
 
 /// Makes the ring of a scene. `material` replaces that of every stone, and `size` that of the main stone.

@@ -2,7 +2,7 @@
 //! docs/formats.md gives their meanings.
 //!
 //! To add a number, add a field of `Ring`, a row here, a key in `crates/files/src/scene_file/ring_form.rs`, a row
-//! in `src/app/panels/ring_rows.rs` and one in docs/formats.md.
+//! in `crates/editor/src/panels/ring_rows.rs` and one in docs/formats.md.
 
 use super::{Ring, RingError, RingStyle};
 

@@ -224,7 +224,8 @@ impl Scan<'_> {
             return Some(found);
         }
         let common = state.noises.iter().copied().fold(f64::INFINITY, f64::min);
-        Some(narrow::planes(self.corners, &members.deep, common))
+        let narrow = narrow::planes(self.corners, &members.deep, common);
+        (state.planes.len() + narrow.len() <= self.most).then_some(narrow)
     }
 
     /// Returns the plane of the corners of each facet, `None` for facets without enough corners and for those that were joined
