@@ -1,21 +1,21 @@
 //! The benchmarks that docs/performance.md reports: `cargo bench`. They run on one core, so that figures of different
 //! machines can be compared.
 
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::cut::{Crown, Cut, LowerHalf, MaterialRef, Pavilion, RoundBrilliant, TierChange};
 use brillianteer::io::{WriteError, as_tiers, cut_file, library, write_png};
 use brillianteer::measure::{MeasureName, MeasureSettings, by_beams_and_rays};
 use brillianteer::optics::{Strata, line, material};
-use brillianteer::picture::spectral::expose;
-use brillianteer::picture::{ByBeams, Layer, Palette, paint};
+use brillianteer::picture::{ByBeams, Layer, Palette, paint, spectral::expose};
 use brillianteer::render::{Sweep, SweepKey};
 use brillianteer::scene::{
     ASET_CONE, Backing, Film, Glare, Instance, Light, Medium, Scene, Scope, Specimen, Stone, View, Viewpoint,
 };
-use brillianteer::trace::environment::{Environment, EnvironmentMap};
-use brillianteer::trace::sampling::{LitScene, Sampling};
-use brillianteer::{
-    base::{Stopped, unwatched},
-    trace::{beam, ray},
+use brillianteer::trace::{
+    beam,
+    environment::{Environment, EnvironmentMap},
+    ray,
+    sampling::{LitScene, Sampling},
 };
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;

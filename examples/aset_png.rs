@@ -1,11 +1,12 @@
 //! Writes the ASET picture of a design: `cargo run --release --example aset_png [FILE [PNG]]`.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
+use brillianteer::base::unwatched;
 use brillianteer::io::{WriteError, cut_file, write_png};
 use brillianteer::optics::line;
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Scope, Specimen, View};
-use brillianteer::{base::unwatched, trace::beam};
+use brillianteer::trace::beam;
 use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -6,8 +6,7 @@ mod card_use;
 
 use super::console::{json, print, say};
 use super::specimen::LoadedSpecimen;
-use brillianteer_base::Failure;
-use brillianteer_base::unwatched;
+use brillianteer_base::{Failure, unwatched};
 use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_math::Polytope;
 use brillianteer_measure::{Bounds, STANDARD_ERROR};

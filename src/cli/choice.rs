@@ -98,6 +98,20 @@ mod tests {
 
     #[test]
     fn every_value_of_the_library_has_one_name_on_the_command_line() {
+        // A new value of either asks for its name here.
+        let tracer = |value: Wanted| match value {
+            Wanted::Quickest => "auto",
+            Wanted::Beams => "beam",
+            Wanted::Rays => "ray",
+            Wanted::Card => "gpu",
+        };
+        assert!(TRACERS.iter().all(|(value, name, _)| tracer(*value) == *name));
+        let form = |value: MeshForm| match value {
+            MeshForm::Found => None,
+            MeshForm::Faceted => Some("faceted"),
+            MeshForm::Triangles => Some("triangles"),
+        };
+        assert!(MESH_FORMS.iter().all(|(value, name, _)| form(*value) == Some(*name)));
         assert_eq!(MOVEMENTS.map(|(value, name, _)| (name, value)), Movement::NAMES);
         assert_eq!(DESIGN_FORMATS.map(|(value, ..)| value), DesignFormat::ALL);
         assert!(DESIGN_FORMATS.iter().all(|(format, name, _)| format.ending() == *name));

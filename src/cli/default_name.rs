@@ -7,8 +7,9 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 /// Options that add nothing to default names: where and as what files are written, what the names say in another way (the
-/// view and the pictures), and how finely and by what means the same thing is drawn.
-const LEFT_OUT: [&str; 31] = [
+/// view and the pictures), how finely and by what means the same thing is drawn, for how long it moves, and what is written beside
+/// it.
+const LEFT_OUT: [&str; 30] = [
     "out",
     "format",
     "json",
@@ -33,7 +34,6 @@ const LEFT_OUT: [&str; 31] = [
     "frames",
     "seconds",
     "paper",
-    "pane",
     "compare",
     "exr",
     "bands",

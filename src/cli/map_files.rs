@@ -3,14 +3,12 @@
 use super::console::say;
 use brillianteer_base::Failure;
 use brillianteer_files::is_standard;
-use brillianteer_paper::background;
 use brillianteer_paper::refraction::{
     Coding, MOST_MEGABYTES, Page, diffuse_path, paths, takes, write_diffuse, write_page, write_places,
 };
-use brillianteer_paper::write_rgba_png;
+use brillianteer_paper::{background, write_rgba_png};
 use brillianteer_picture::{Develop, RefractionMap, Tone, develop, refract};
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::Panorama;
+use brillianteer_scene::{BackgroundRef, Panorama};
 use clap::ValueEnum;
 use glam::DVec2;
 use std::path::{Path, PathBuf};

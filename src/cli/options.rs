@@ -2,8 +2,7 @@
 
 use super::choice::{TRACERS, one_of};
 use super::specimen::{LoadedSpecimen, note_colour};
-use brillianteer_base::Failure;
-use brillianteer_base::nearest;
+use brillianteer_base::{Failure, nearest};
 use brillianteer_files::scope_file;
 use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};

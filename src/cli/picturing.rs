@@ -4,20 +4,16 @@ use super::console::{report, say};
 use super::options::unfit;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::specimen::note_colour;
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_files::assembly::Assembly;
-use brillianteer_paper::background;
 use brillianteer_paper::export::Event;
-use brillianteer_paper::lighting;
-use brillianteer_paper::{Finish, StoredLight};
+use brillianteer_paper::{Finish, StoredLight, background, lighting};
 use brillianteer_picture::{Bloom, Develop, Overlay, Smoothing, Tone};
 use brillianteer_render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::{Film, Mipmap, Scene, View, Viewpoint};
+use brillianteer_scene::{BackgroundRef, Film, Mipmap, Scene, View, Viewpoint};
 use brillianteer_trace::environment::Lighting;
 use brillianteer_trace::ray::{self, Camera, RayOptions};
 use glam::DVec2;

@@ -12,8 +12,7 @@ use brillianteer_files::is_standard;
 use brillianteer_paper::background;
 use brillianteer_paper::export::Event;
 use brillianteer_paper::refraction::{MOST_MAP_PIXELS, Template, read, write_template};
-use brillianteer_scene::Background;
-use brillianteer_scene::BackgroundRef;
+use brillianteer_scene::{Background, BackgroundRef};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 

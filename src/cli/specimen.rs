@@ -2,9 +2,8 @@
 
 use super::console::say;
 use brillianteer_base::Failure;
-use brillianteer_cut::Cut;
 use brillianteer_cut::from_mesh::FacetError;
-use brillianteer_cut::{MaterialError, MaterialRef, Size};
+use brillianteer_cut::{Cut, MaterialError, MaterialRef, Size};
 use brillianteer_files::built_design::{BuiltDesign, OtherReadings};
 use brillianteer_files::is_standard;
 use brillianteer_files::mesh::MeshBody;

@@ -8,12 +8,13 @@ pub mod scans;
 pub mod shoot;
 pub mod solids;
 
+use brillianteer::base::unwatched;
 use brillianteer::cut::{Crown, Cut, DesignError, LowerHalf, Pavilion, RoundBrilliant};
 use brillianteer::io::cut_file;
 use brillianteer::math::Plane;
 use brillianteer::measure::{Figures, by_beams};
 use brillianteer::scene::{ASET_CONE, Backing, Medium, Scope, Stone, View};
-use brillianteer::{base::unwatched, trace::beam};
+use brillianteer::trace::beam;
 use glam::DVec3;
 use proptest::prelude::*;
 use std::io::Write;

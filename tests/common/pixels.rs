@@ -1,13 +1,13 @@
 //! Compares pictures by a card with pictures by rays in f64, pixel by pixel.
 
 use super::aset;
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::math::SolidRef;
 use brillianteer::scene::{Film, Medium, Projection, Scope, Side, View};
-use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel};
-use brillianteer::trace::ray::{Camera, Exit, MeetingRay, RayOptions, StoneTracer};
-use brillianteer::{
-    base::{Stopped, unwatched},
-    trace::{DispersedRay, ScopeShot},
+use brillianteer::trace::{
+    DispersedRay, ScopeShot,
+    gpu::{Gpu, GpuError, ScopePixel},
+    ray::{Camera, Exit, MeetingRay, RayOptions, StoneTracer},
 };
 use glam::DVec2;
 

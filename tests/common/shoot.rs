@@ -3,15 +3,21 @@
 use brillianteer::base::{Stopped, unwatched};
 use brillianteer::math::Polytope;
 use brillianteer::optics::{Strata, material};
-use brillianteer::picture::spectral::{Remainder, expose, seen};
-use brillianteer::picture::{ByBeams, Linear};
+use brillianteer::picture::{
+    ByBeams, Linear,
+    spectral::{Remainder, expose, seen},
+};
 use brillianteer::scene::{Body, Film, Instance, Light, Mipmap, Panorama, Scene, View};
-use brillianteer::trace::beam;
-use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
+use brillianteer::trace::{
+    beam,
+    environment::{Backplate, Environment, EnvironmentMap},
+};
 #[cfg(feature = "gpu")]
-use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
-use brillianteer::trace::ray::{ByRays, RayOptions};
-use brillianteer::trace::sampling::{LitScene, Sampling};
+use brillianteer::trace::{
+    gpu::{ByCard, Gpu, GpuEnvironment, GpuError},
+    ray::{ByRays, RayOptions},
+    sampling::{LitScene, Sampling},
+};
 use glam::{DVec2, DVec3};
 
 pub const SIZE: u32 = 64;

@@ -4,16 +4,19 @@
 
 use crate::common::shoot::Shoot;
 use crate::common::*;
+use brillianteer::base::unwatched;
 use brillianteer::math::{Plane, Polytope, SolidRef};
 use brillianteer::render::RenderError;
 use brillianteer::scene::{
     ASET_CONE, Backing, Film, MOST_LAMPS, Medium, Mipmap, Panorama, Scene, Scope, View, light,
 };
-use brillianteer::trace::environment::{Backplate, Disc, Environment, EnvironmentMap};
-use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError, MOST_WAVELENGTHS};
-use brillianteer::trace::ray::RayOptions;
-use brillianteer::trace::sampling::LitScene;
-use brillianteer::{base::unwatched, trace::ScopeShot};
+use brillianteer::trace::{
+    ScopeShot,
+    environment::{Backplate, Disc, Environment, EnvironmentMap},
+    gpu::{ByCard, Gpu, GpuEnvironment, GpuError, MOST_WAVELENGTHS},
+    ray::RayOptions,
+    sampling::LitScene,
+};
 use glam::{DVec2, DVec3, DVec4};
 use std::io::Write;
 

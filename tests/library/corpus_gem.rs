@@ -3,8 +3,7 @@
 #![cfg(feature = "interchange")]
 
 use brillianteer::cut::{Cut, Design, Tiers};
-use brillianteer::io::design_file::ImportedDesign;
-use brillianteer::io::{gcs, gem};
+use brillianteer::io::{design_file::ImportedDesign, gcs, gem};
 use brillianteer::math::Plane;
 use brillianteer::scene::Specimen;
 use std::path::{Path, PathBuf};

@@ -5,8 +5,11 @@ use super::corpus::files;
 use brillianteer::cut::{
     Cut, Design, Meet, MeetFault, MeetPoint, SolvedTiers, Tier, TierOutcome, TierZone, Tiers,
 };
-use brillianteer::io::design_file::{self, DesignFormat, written};
-use brillianteer::io::{as_tiers, asc, cut_file, gcs, gem, library};
+use brillianteer::io::{
+    as_tiers, asc, cut_file,
+    design_file::{self, DesignFormat, written},
+    gcs, gem, library,
+};
 use brillianteer::scene::Specimen;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

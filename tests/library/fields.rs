@@ -7,8 +7,10 @@ use crate::common::*;
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Pose, SmoothSolid};
 use brillianteer::optics::{Material, material};
 use brillianteer::scene::{Instance, Light, Medium, View, light};
-use brillianteer::trace::gpu::{ByCard, GpuEnvironment, GpuError};
-use brillianteer::trace::ray::RayOptions;
+use brillianteer::trace::{
+    gpu::{ByCard, GpuEnvironment, GpuError},
+    ray::RayOptions,
+};
 use glam::{DQuat, DVec3};
 use std::io::Write;
 

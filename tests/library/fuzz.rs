@@ -4,10 +4,15 @@
 #![cfg(feature = "interchange")]
 
 use brillianteer::cut::from_mesh::{Evening, Up, from_mesh};
-use brillianteer::io::design_file::{DesignFormat, written};
-use brillianteer::io::{asc, cut_file, gcs, gem, library, light_file, mesh, scene_file, scope_file};
-use brillianteer::math::TriangleMesh;
-use brillianteer::math::faceting::{SurfaceKind, facets};
+use brillianteer::io::{
+    asc, cut_file,
+    design_file::{DesignFormat, written},
+    gcs, gem, library, light_file, mesh, scene_file, scope_file,
+};
+use brillianteer::math::{
+    TriangleMesh,
+    faceting::{SurfaceKind, facets},
+};
 use brillianteer::scene::{LIGHTS, Specimen, light};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};

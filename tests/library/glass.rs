@@ -1,5 +1,6 @@
 //! Checks that glass shapes refract as textbooks say.
 
+use brillianteer::base::unwatched;
 use brillianteer::cut::{Cut, FAMILIES, Glass};
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, SolidRef, TriangleMesh};
 use brillianteer::measure;
@@ -8,10 +9,9 @@ use brillianteer::picture::by_rays;
 use brillianteer::scene::{
     ASET_CONE, Backing, Body, Film, Glare, Instance, Medium, Projection, Scene, Scope, Specimen, View,
 };
-use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, MeetingRay, RayOptions, StoneTracer};
-use brillianteer::{
-    base::unwatched,
-    trace::{DispersedRay, ScopeShot},
+use brillianteer::trace::{
+    DispersedRay, ScopeShot,
+    ray::{Camera, Exit, InstanceTracer, MeetingRay, RayOptions, StoneTracer},
 };
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;

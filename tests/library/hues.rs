@@ -6,13 +6,13 @@ use brillianteer::cut::{Glass, Sides};
 use brillianteer::io::background::picture;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Dispersion, Illuminant, Material, Strata};
-use brillianteer::picture::LUMINANCE;
-use brillianteer::picture::spectral::expose;
-use brillianteer::scene::BackgroundRef;
-use brillianteer::scene::{Film, Instance, Light, Mipmap, Scene, View};
-use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
-use brillianteer::trace::ray::{ByRays, RayOptions};
-use brillianteer::trace::sampling::{LitScene, Sampling};
+use brillianteer::picture::{LUMINANCE, spectral::expose};
+use brillianteer::scene::{BackgroundRef, Film, Instance, Light, Mipmap, Scene, View};
+use brillianteer::trace::{
+    environment::{Backplate, Environment, EnvironmentMap},
+    ray::{ByRays, RayOptions},
+    sampling::{LitScene, Sampling},
+};
 use glam::{DMat3, DVec2, DVec3};
 use std::path::Path;
 

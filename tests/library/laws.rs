@@ -1,16 +1,16 @@
 //! Checks laws that hold for every stone: energy, symmetry, reversal, a white world.
 
 use crate::common::*;
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{
     LightMeasures, MeasureName, MeasureSettings, PatternSettings, by_beams, by_rays,
 };
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{Film, Glare, Lean, Medium, Projection, Scope, Side, View};
-use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
-use brillianteer::{
-    base::{Stopped, unwatched},
-    trace::beam,
+use brillianteer::trace::{
+    beam,
+    ray::{Camera, Exit, RayOptions, StoneTracer},
 };
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;

@@ -6,8 +6,10 @@ use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{Interval, LightMeasures, MeasureSettings, PatternSettings, hemisphere_return};
 use brillianteer::optics::{line, material};
 use brillianteer::scene::{DomeLight, Medium, Stone, View, elevation_deg};
-use brillianteer::trace::beam::{BeamOptions, trace};
-use brillianteer::trace::ray::{Camera, RayOptions, StoneTracer};
+use brillianteer::trace::{
+    beam::{BeamOptions, trace},
+    ray::{Camera, RayOptions, StoneTracer},
+};
 use glam::DVec2;
 use proptest::prelude::*;
 use std::ops::ControlFlow;

@@ -4,9 +4,12 @@
 
 use crate::common::meshes::{moved, stripped};
 use brillianteer::cut::{Cut, Outline, ProportionReport};
-use brillianteer::io::design_file::{self, DesignFormat, ImportedDesign, written};
-use brillianteer::io::mesh_options::{MeshForm, MeshOptions, MeshUnit};
-use brillianteer::io::{cut_file, library, mesh};
+use brillianteer::io::{
+    cut_file,
+    design_file::{self, DesignFormat, ImportedDesign, written},
+    library, mesh,
+    mesh_options::{MeshForm, MeshOptions, MeshUnit},
+};
 use brillianteer::math::{Calipers, hull};
 use brillianteer::scene::Specimen;
 use glam::{DQuat, DVec3};

@@ -6,9 +6,11 @@ use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{cos_transmitted, line, material, reflectance, refract};
 use brillianteer::picture::{Code, Overlay, lay};
 use brillianteer::scene::{Film, Instance, Projection, Scene, View};
-use brillianteer::trace::environment::{Environment, EnvironmentMap};
-use brillianteer::trace::ray::{RayOptions, SceneProbe, facet_at};
-use brillianteer::trace::sampling::LitScene;
+use brillianteer::trace::{
+    environment::{Environment, EnvironmentMap},
+    ray::{RayOptions, SceneProbe, facet_at},
+    sampling::LitScene,
+};
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;
 

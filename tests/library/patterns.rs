@@ -11,8 +11,10 @@ use brillianteer::measure::{
 };
 use brillianteer::optics::{line, material};
 use brillianteer::scene::{Medium, View, elevation_deg};
-use brillianteer::trace::beam::{BeamOptions, Beams, trace};
-use brillianteer::trace::ray::{Camera, RayOptions, StoneTracer};
+use brillianteer::trace::{
+    beam::{BeamOptions, Beams, trace},
+    ray::{Camera, RayOptions, StoneTracer},
+};
 use glam::{DVec2, DVec3};
 
 const DIAMOND: f64 = 2.4175;

@@ -1,6 +1,7 @@
 //! Compares figures with those that other programs have computed for the same stones.
 
 use crate::common::*;
+use brillianteer::base::unwatched;
 use brillianteer::cut::{Cut, Design, MaterialRef};
 use brillianteer::io::{cut_file, library};
 use brillianteer::measure::{Bounds, Figures, by_beams, by_rays};
@@ -9,8 +10,7 @@ use brillianteer::render::{MeasureError, MeasureOptions, RenderError, Unfit, Wan
 use brillianteer::scene::{
     ASET_CONE, Backing, Band, Medium, Projection, Scope, Side, Stone, View, Viewpoint,
 };
-use brillianteer::trace::beam::Beam;
-use brillianteer::{base::unwatched, trace::ray};
+use brillianteer::trace::{beam::Beam, ray};
 
 const DIAMOND: Medium = Medium::clear(2.4175);
 

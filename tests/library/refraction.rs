@@ -8,9 +8,11 @@ use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Illuminant, Material, Strata, encoded_from_linear, material};
 use brillianteer::picture::{Backdrop, Carried, Linear, RefractionMap, Survey, refract, spectral};
 use brillianteer::scene::{Film, Instance, Lean, Light, Mipmap, Panorama, Projection, Scene, View};
-use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
-use brillianteer::trace::ray::{self, ByRays};
-use brillianteer::trace::sampling::{LitScene, Sampling};
+use brillianteer::trace::{
+    environment::{Backplate, Environment, EnvironmentMap},
+    ray::{self, ByRays},
+    sampling::{LitScene, Sampling},
+};
 use files::Coding;
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;

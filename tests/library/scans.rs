@@ -1,13 +1,15 @@
 //! Scans of a brilliant whose facets are off by known angles: noise must change nothing but the standard errors.
 
 use crate::common::scans::{Corners, Scan, flawed};
-use brillianteer::cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
-use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
-use brillianteer::io::{cut_file, library};
-use brillianteer::math::faceting::{
-    Face, Faceted, NotFaceted, PlaneError, SurfaceKind, Unfaceted, faceted_hull, facets,
+use brillianteer::cut::{
+    Crown, LowerHalf, Pavilion, RoundBrilliant,
+    from_mesh::{Evening, FromMesh, Up, from_mesh},
 };
-use brillianteer::math::{Plane, Polytope};
+use brillianteer::io::{cut_file, library};
+use brillianteer::math::{
+    Plane, Polytope,
+    faceting::{Face, Faceted, NotFaceted, PlaneError, SurfaceKind, Unfaceted, faceted_hull, facets},
+};
 use brillianteer::measure::facet_deviations;
 use brillianteer::scene::Stone;
 use glam::{DQuat, DVec3};
@@ -337,7 +339,7 @@ fn facets_without_corners_within_have_standard_errors_and_hidden_ones_are_named(
         all.add(&found(&scan, &stone), &scan.planes(&stone), name);
     }
     assert!(all.coverage().iter().all(|c| (90.0..99.5).contains(c)), "{:?} of {}", all.coverage(), all.count);
-    let stone = cut("tolkowsky");
+    let (stone, mut count) = (cut("tolkowsky"), 0);
     for (triangles, noise_um, seed) in [(2_000, 2.0, 1), (2_000, 2.0, 2), (2_000, 3.0, 1), (4_000, 2.0, 1)] {
         let corners =
             if triangles == 2_000 { Corners::Halved(triangles) } else { Corners::Meshed(triangles) };
@@ -345,7 +347,9 @@ fn facets_without_corners_within_have_standard_errors_and_hidden_ones_are_named(
         let Some(found) = read(&scan, &stone) else { continue };
         let has_word = found.is_uncertain || found.faces.iter().any(|face| face.is_bent);
         assert!(has_word || found.faces.len() == stone.len(), "{scan:?}: {}", found.faces.len());
+        count += 1;
     }
+    assert!(count > 0, "no scan was read");
 }
 
 #[test]

@@ -3,8 +3,7 @@
 #![cfg(feature = "interchange")]
 
 use brillianteer::cut::{Cut, Tiers};
-use brillianteer::io::cutting_sheet::cutting_sheet;
-use brillianteer::io::design_file;
+use brillianteer::io::{cutting_sheet::cutting_sheet, design_file};
 use brillianteer::picture::{BlockKind, CuttingSheet, PaperSize, SheetRow, sheet_pages};
 use brillianteer::scene::Specimen;
 use std::collections::BTreeSet;

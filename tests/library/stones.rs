@@ -3,14 +3,17 @@
 #![cfg(feature = "interchange")]
 
 use crate::common::meshes::{moved, stripped, turned};
-use brillianteer::cut::from_mesh::Up;
-use brillianteer::cut::{Cut, Design, FacetZones, Outline, ProportionReport, SheetFigures};
-use brillianteer::io::design_file::{self, DesignFormat, written};
-use brillianteer::io::mesh_options::MeshOptions;
-use brillianteer::io::{asc, cut_file, library, mesh};
+use brillianteer::base::unwatched;
+use brillianteer::cut::{Cut, Design, FacetZones, Outline, ProportionReport, SheetFigures, from_mesh::Up};
+use brillianteer::io::{
+    asc, cut_file,
+    design_file::{self, DesignFormat, written},
+    library, mesh,
+    mesh_options::MeshOptions,
+};
 use brillianteer::measure::by_beams;
 use brillianteer::scene::{ASET_CONE, Backing, Scope, Specimen, View};
-use brillianteer::{base::unwatched, trace::beam};
+use brillianteer::trace::beam;
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};

@@ -3,8 +3,10 @@
 use crate::common::*;
 use brillianteer::math::{Plane, contains};
 use brillianteer::scene::{Lean, Medium, Side, Stone, View};
-use brillianteer::trace::beam::{Beam, Beams};
-use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
+use brillianteer::trace::{
+    beam::{Beam, Beams},
+    ray::{Camera, Exit, RayOptions, StoneTracer},
+};
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 

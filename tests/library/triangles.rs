@@ -3,18 +3,20 @@
 
 use crate::common::solids::{Triangles, clasp, heart, star};
 use crate::common::*;
+use brillianteer::base::{Stopped, unwatched};
 use brillianteer::math::{Pose, SolidRef, Surface, TriangleMesh};
 use brillianteer::measure;
 use brillianteer::optics::{Material, Strata, material};
-use brillianteer::picture::spectral::{Remainder, expose};
-use brillianteer::picture::{ByBeams, Linear, Rows, by_rays};
+use brillianteer::picture::{
+    ByBeams, Linear, Rows, by_rays,
+    spectral::{Remainder, expose},
+};
 use brillianteer::scene::{Body, Film, Glare, Instance, Light, Medium, Scene, View, light};
-use brillianteer::trace::environment::{Environment, EnvironmentMap};
-use brillianteer::trace::ray::{ByRays, Camera, RayOptions, facet_at};
-use brillianteer::trace::sampling::{LitScene, Sampling};
-use brillianteer::{
-    base::{Stopped, unwatched},
-    trace::{ScopeShot, beam},
+use brillianteer::trace::{
+    ScopeShot, beam,
+    environment::{Environment, EnvironmentMap},
+    ray::{ByRays, Camera, RayOptions, facet_at},
+    sampling::{LitScene, Sampling},
 };
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;

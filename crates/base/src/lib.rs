@@ -5,13 +5,11 @@
 #![cfg_attr(test, allow(clippy::too_many_lines))]
 
 mod at_once;
-mod failure;
 mod fault;
 mod nearest;
 mod watch;
 
 pub use at_once::at_once;
-pub use failure::Failure;
-pub use fault::{Fault, FileError, NameOrFileError};
+pub use fault::{Failure, Fault, FileError, NameOrFileError};
 pub use nearest::{nearest, slips};
 pub use watch::{Stopped, Watch, go_on, unwatched};

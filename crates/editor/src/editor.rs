@@ -4,24 +4,25 @@ use super::hands::Hands;
 use super::panels::{audit_panel, map_window, row_focus, rows, search_window, side_panels, tier_table};
 use super::setup::{PaintedBy, Setup};
 use super::state_file::StateFile;
-use super::textures;
-use super::views::gallery::{Shown, hang};
+use super::views::gallery::{Shown, hang, texture_image};
 use super::views::look_ups::look_ups;
 use super::views::{ViewTools, bench_mode, clock, light_path_window, stage};
 use super::{dialogs, drops, menus, theme};
 use brillianteer_base::Failure;
 use brillianteer_files::library;
-use brillianteer_session::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
-use brillianteer_session::model::opening::{FileRequest, Opening, OpeningPurpose};
-use brillianteer_session::model::ordering::Seen;
-use brillianteer_session::model::task::WindowTask;
-use brillianteer_session::model::workspace::Workspace;
-use brillianteer_session::model::{Action, Model, Task, update};
+use brillianteer_session::model::{
+    Action, Model, Task,
+    action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction},
+    opening::{FileRequest, Opening, OpeningPurpose},
+    ordering::Seen,
+    task::WindowTask,
+    update,
+    workspace::Workspace,
+};
 use brillianteer_session::pixels::Pixels;
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::{self, Slot, Studio, Which};
-use brillianteer_session::tasks::autosave::Autosave;
-use brillianteer_session::tasks::{Outside, TaskAnswer};
+use brillianteer_session::tasks::{Outside, TaskAnswer, autosave::Autosave};
 use brillianteer_trace::gpu::Gpu;
 use eframe::{CreationContext, Storage};
 use egui::{Context, PanelState, TextureHandle, Ui, ViewportCommand};
@@ -164,7 +165,7 @@ impl Editor {
                 "The light is still being drawn; copy the view when it is done.".to_owned()
             }
             Some(picture) => {
-                self.ctx.copy_image(textures::image(&picture.taken.image));
+                self.ctx.copy_image(texture_image(&picture.taken.image));
                 format!("{} copied", shows.name())
             }
             None => "This view has no picture to copy.".to_owned(),
@@ -207,7 +208,7 @@ impl Editor {
                 TaskAnswer::Thumbnail(shows, image) => {
                     let name = format!("thumbnail {shows:?}");
                     let texture =
-                        self.ctx.load_texture(name, textures::image(&image), egui::TextureOptions::LINEAR);
+                        self.ctx.load_texture(name, texture_image(&image), egui::TextureOptions::LINEAR);
                     self.thumbnails.insert(shows, texture);
                 }
             }
@@ -217,7 +218,7 @@ impl Editor {
     fn copied(&mut self, made: Result<Pixels, Failure>) {
         let made = made.map(|image| {
             let size = image.size;
-            self.ctx.copy_image(textures::image(&image));
+            self.ctx.copy_image(texture_image(&image));
             size
         });
         self.actions.push(Computed::Copied(made));

@@ -19,7 +19,6 @@ mod scrolled;
 mod setup;
 mod shortcuts;
 mod state_file;
-mod textures;
 mod theme;
 mod trouble_bar;
 mod views;

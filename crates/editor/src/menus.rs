@@ -5,12 +5,14 @@ use super::scrolled::scrolled;
 use super::setup::PaintedBy;
 use super::shortcuts::{letter, shortcuts};
 use brillianteer_files::library::SCENES;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Action, Actions, FileAction};
-use brillianteer_session::model::command::{Command, MENUS, Menu};
-use brillianteer_session::model::dialog::Then;
-use brillianteer_session::model::preset::{Known, PRESETS};
-use brillianteer_session::model::session::{HeldKeys, Session};
+use brillianteer_session::model::{
+    Model,
+    action::{Action, Actions, FileAction},
+    command::{Command, MENUS, Menu},
+    dialog::Then,
+    preset::{Known, PRESETS},
+    session::{HeldKeys, Session},
+};
 use egui::{
     Align, Button, Context, Event, InnerResponse, Key, Modifiers, Panel, Popup, Response, RichText,
     ThemePreference, Ui, WidgetText,

@@ -3,8 +3,10 @@
 use super::state_file::StateFile;
 use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_session::model::workspace::Workspace;
-use brillianteer_session::tasks::Opener;
-use brillianteer_session::tasks::files::{Chooser, by_dialog};
+use brillianteer_session::tasks::{
+    Opener,
+    files::{Chooser, by_dialog},
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 

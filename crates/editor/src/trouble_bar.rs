@@ -1,9 +1,11 @@
 //! The bar of errors and warnings: one line over the lower edge of the views, which keep their size. It opens to a list.
 
 use crate::theme;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, NoteAction};
-use brillianteer_session::model::notes::{Notes, Problem};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, NoteAction},
+    notes::{Notes, Problem},
+};
 use egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, Rect, RichText, ScrollArea, Ui,
 };

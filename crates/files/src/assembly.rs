@@ -9,10 +9,9 @@ use brillianteer_base::Failure;
 use brillianteer_cut::{Design, MaterialRef, Size};
 use brillianteer_math::{ShadedMesh, bounds};
 use brillianteer_optics::{Material, Metal};
-use brillianteer_scene::BackgroundRef;
 use brillianteer_scene::{
-    Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene, Specimen, Viewpoint,
-    overlapping,
+    BackgroundRef, Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene,
+    Specimen, Viewpoint, overlapping,
 };
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;

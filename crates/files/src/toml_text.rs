@@ -1,8 +1,7 @@
 //! Reads TOML texts, each parsed once, with faults that name the line by the spans of the parsed values.
 
 use super::text::line_after;
-use brillianteer_base::Fault;
-use brillianteer_base::nearest;
+use brillianteer_base::{Fault, nearest};
 use brillianteer_cut::{FAMILIES, Family};
 use serde::Deserialize;
 use toml::Spanned;

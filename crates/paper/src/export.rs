@@ -23,8 +23,7 @@ pub use viewing::Viewing;
 #[cfg(feature = "interchange")]
 pub(crate) use viewing::note;
 
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_files::{WriteError, is_standard, write};
 use brillianteer_picture::{Picture, Scoped};
 use brillianteer_render::Renderer;

@@ -1,8 +1,7 @@
 //! Reads and writes goal files: TOML with the measures of a search, the numbers of the design that may change, and
 //! the limits.
 
-use brillianteer_base::Failure;
-use brillianteer_base::{Fault, FileError};
+use brillianteer_base::{Failure, Fault, FileError};
 use brillianteer_files::toml_text::TomlText;
 use brillianteer_files::{WriteError, text, write as write_whole};
 use brillianteer_search::Goal;

@@ -1,9 +1,6 @@
 //! Loads the light of a scene: one that comes with the program, a light file, or a panorama.
 
-use brillianteer_base::Failure;
-use brillianteer_base::NameOrFileError;
-use brillianteer_base::Watch;
-use brillianteer_base::nearest;
+use brillianteer_base::{Failure, NameOrFileError, Watch, nearest};
 use brillianteer_files::{light_file, panorama};
 use brillianteer_scene::{LIGHTS, Light, Panorama, light};
 use brillianteer_trace::environment::{EnvironmentMap, Lighting};

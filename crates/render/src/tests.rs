@@ -7,8 +7,8 @@ use brillianteer_base::unwatched;
 use brillianteer_cut::{Design, Family, MaterialRef};
 use brillianteer_math::Pose;
 use brillianteer_measure::Bounds;
-use brillianteer_picture::Linear;
-use brillianteer_picture::{Backdrop, liquid_glass::GlassPane};
+use brillianteer_picture::liquid_glass::GlassPane;
+use brillianteer_picture::{Backdrop, Linear};
 use brillianteer_scene::{
     ASET_CONE, Backing, Film, Glare, Instance, Light, Mipmap, Panorama, PanoramaRef, Projection, Scene,
     Scope, Specimen, View,

@@ -6,7 +6,6 @@
 
 mod described;
 pub mod liquid;
-pub mod lookup;
 pub mod model;
 pub mod pixels;
 pub mod shows;

@@ -2,8 +2,7 @@
 
 use super::{PictureSetup, RenderedPicture};
 use crate::cli::console::report;
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_paper::StoredLight;
 use brillianteer_paper::export::Event;
 use brillianteer_picture::{Linear, TemporalHistory, motion_of_view};

@@ -3,8 +3,10 @@
 use super::answers::{answer, body, buttons};
 use crate::icon::icon;
 use crate::scrolled::follow_focus;
-use brillianteer_session::model::action::{Actions, DialogAction, FileAction};
-use brillianteer_session::model::dialog::{AboutForm, AboutPage};
+use brillianteer_session::model::{
+    action::{Actions, DialogAction, FileAction},
+    dialog::{AboutForm, AboutPage},
+};
 use egui::{
     ColorImage, Grid, Id, Label, RichText, ScrollArea, TextEdit, TextureHandle, TextureOptions, Ui, vec2,
 };

@@ -2,9 +2,11 @@
 
 use super::answers::{body, buttons_alone};
 use crate::theme;
-use brillianteer_session::model::action::{Actions, DialogAction};
-use brillianteer_session::model::choosing::Purpose;
-use brillianteer_session::model::dialog::PathForm;
+use brillianteer_session::model::{
+    action::{Actions, DialogAction},
+    choosing::Purpose,
+    dialog::PathForm,
+};
 use egui::{Key, RichText, TextEdit, Ui};
 
 /// Returns the name of the button that accepts the path.

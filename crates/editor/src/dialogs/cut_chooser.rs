@@ -4,8 +4,10 @@ use super::answers::{answer, body, buttons_alone};
 use crate::library_cuts::{LibraryCut, library_cuts};
 use crate::theme;
 use brillianteer_cut::GROUPS;
-use brillianteer_session::model::action::{Actions, DialogAction, FileAction};
-use brillianteer_session::model::dialog::Then;
+use brillianteer_session::model::{
+    action::{Actions, DialogAction, FileAction},
+    dialog::Then,
+};
 use egui::{Align2, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
 /// The side of a drawing, points.

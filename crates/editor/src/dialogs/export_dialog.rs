@@ -6,10 +6,12 @@ use crate::theme;
 use brillianteer_base::Failure;
 use brillianteer_paper::export::OutputFormat;
 use brillianteer_paper::refraction::{MOST_MAP_BANDS, MOST_PLACES};
-use brillianteer_session::model::action::{Actions, DialogAction, FileAction};
-use brillianteer_session::model::choosing::Purpose;
-use brillianteer_session::model::export::Selection;
-use brillianteer_session::model::exporting::{ExportForm, ExportRun};
+use brillianteer_session::model::{
+    action::{Actions, DialogAction, FileAction},
+    choosing::Purpose,
+    export::Selection,
+    exporting::{ExportForm, ExportRun},
+};
 use brillianteer_session::shows::Shows;
 use egui::{
     Color32, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,

@@ -12,11 +12,13 @@ mod yield_dialog;
 use super::shortcuts::shortcuts;
 use answers::{answer, body, body_of, buttons};
 use brillianteer_cut::FAMILIES;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, DialogAction};
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::dialog::Dialog;
-use brillianteer_session::model::recovery::RecoveredWork;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, DialogAction},
+    command::Command,
+    dialog::Dialog,
+    recovery::RecoveredWork,
+};
 use brillianteer_session::shows::Shows;
 use egui::{Context, Grid, Id, Key, Modal, RichText, TextureHandle, Ui};
 use std::collections::HashMap;

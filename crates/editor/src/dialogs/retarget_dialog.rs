@@ -6,8 +6,10 @@ use crate::panels::stone_rows::material_choice;
 use crate::theme;
 use brillianteer_cut::Retargeted;
 use brillianteer_math::signed;
-use brillianteer_session::model::action::{Actions, DialogAction};
-use brillianteer_session::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
+use brillianteer_session::model::{
+    action::{Actions, DialogAction},
+    fitting::{FitOptions, FitRule, RetargetForm, StoneLight},
+};
 use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 
 /// The width of the dialog, points.

@@ -4,9 +4,11 @@ use super::answers::{answer, body, buttons_alone};
 use crate::panels::rows::{ChoiceRow, Number, number_row};
 use crate::theme;
 use brillianteer_cut::{Finished, FitLimit, Rough};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, DialogAction};
-use brillianteer_session::model::fitting::{SizeBy, YieldForm, YieldOptions};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, DialogAction},
+    fitting::{SizeBy, YieldForm, YieldOptions},
+};
 use egui::{Grid, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 

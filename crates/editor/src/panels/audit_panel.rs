@@ -5,8 +5,10 @@
 use crate::panels::rows::explain;
 use brillianteer_cut::{Audit, Finding, FindingKind};
 use brillianteer_math::fixed;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+};
 use egui::{Button, Panel, RichText, ScrollArea, Ui};
 use glam::DVec3;
 

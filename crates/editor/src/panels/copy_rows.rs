@@ -3,15 +3,17 @@
 
 use crate::panels::rows::{ANY, ChoiceRow, NUMBER, Row, control_width, field_width, named, skip_name};
 use brillianteer_scene::{MOST_COPIES, Movement, has_wave};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit, FileAction, ViewAction};
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::dialog::Then;
-use brillianteer_session::model::document::Document;
-use brillianteer_session::model::motion::Motion;
-use brillianteer_session::model::preset::{Known, PRESETS};
-use brillianteer_session::model::render_settings::SettingChange;
-use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit, FileAction, ViewAction},
+    command::Command,
+    dialog::Then,
+    document::Document,
+    motion::Motion,
+    preset::{Known, PRESETS},
+    render_settings::SettingChange,
+    workspace::Workspace,
+};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::Smoothing;
 use egui::{Button, Ui, vec2};

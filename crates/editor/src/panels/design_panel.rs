@@ -7,12 +7,14 @@ use crate::theme;
 use brillianteer_cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use brillianteer_math::fixed;
 use brillianteer_scene::{Copies, SpecimenError};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit};
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::document::Document;
-use brillianteer_session::model::impossible::{self, RowMessage};
-use brillianteer_session::model::workspace::PanelSide;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit},
+    command::Command,
+    document::Document,
+    impossible::{self, RowMessage},
+    workspace::PanelSide,
+};
 use egui::{
     Button, Panel, Rect, RichText, Role, ScrollArea, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };

@@ -3,8 +3,7 @@
 use brillianteer_measure::Figures;
 use brillianteer_picture::Scoped;
 use brillianteer_scene::{Glare, Scope};
-use brillianteer_session::model::figures::ShownFigures;
-use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::model::{figures::ShownFigures, workspace::Workspace};
 use brillianteer_session::studio::Grade;
 
 /// A figure that the panel shows.

@@ -7,9 +7,11 @@ use crate::panels::{figures_text, pane_rows, side_panels, tilt_plot};
 use crate::theme;
 use brillianteer_math::signed;
 use brillianteer_scene::Glare;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, NoteAction, ViewAction};
-use brillianteer_session::model::workspace::{PanelSide, Workspace};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, NoteAction, ViewAction},
+    workspace::{PanelSide, Workspace},
+};
 use brillianteer_session::studio::{Tilts, Which};
 use egui::{Align, Button, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotPoint, PlotPoints};

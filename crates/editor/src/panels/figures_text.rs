@@ -3,9 +3,7 @@
 use crate::panels::figure_lines::{Counting, FigureLine, energy, lines, zones};
 use brillianteer_math::{fixed, signed};
 use brillianteer_scene::Glare;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::eye::Eye;
-use brillianteer_session::model::figures::ShownFigures;
+use brillianteer_session::model::{Model, eye::Eye, figures::ShownFigures};
 use brillianteer_session::studio::{Grade, Tilts, Which};
 use std::fmt::Write as _;
 

@@ -3,14 +3,14 @@
 use crate::panels::rows::{ChoiceRow, Row, colour_row, field_width, skip_name};
 use brillianteer_picture::light_picture;
 use brillianteer_render::USUAL_BOUNCES;
-use brillianteer_scene::Background;
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::{LIGHTS, light};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit, FileAction};
-use brillianteer_session::model::choosing::Purpose;
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::render_settings::{RenderSettings, SettingChange, WAVELENGTHS};
+use brillianteer_scene::{Background, BackgroundRef, LIGHTS, light};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit, FileAction},
+    choosing::Purpose,
+    command::Command,
+    render_settings::{RenderSettings, SettingChange, WAVELENGTHS},
+};
 use brillianteer_session::studio::BEHIND;
 use egui::{Button, ColorImage, Id, Image, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use std::borrow::Cow;

@@ -8,9 +8,11 @@ use brillianteer_cut::Design;
 use brillianteer_measure::measure_words;
 use brillianteer_paper::plot::{levels, map_colour};
 use brillianteer_render::{SweepError, SweptStone};
-use brillianteer_session::model::action::{Actions, Edit};
-use brillianteer_session::model::growing_sweep::FoundSweep;
-use brillianteer_session::model::measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STRIDES, point};
+use brillianteer_session::model::{
+    action::{Actions, Edit},
+    growing_sweep::FoundSweep,
+    measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STRIDES, point},
+};
 use egui::epaint::Mesh;
 use egui::{
     Align2, Color32, FontId, Modifiers, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke,

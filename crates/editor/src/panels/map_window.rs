@@ -5,9 +5,11 @@ use super::rows::{ANY, ChoiceRow, NUMBER, Number, named_with_reset};
 use crate::scrolled::scrolled;
 use brillianteer_cut::{Cut, Design};
 use brillianteer_measure::measure_words;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
-use brillianteer_session::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+    measure_map::{MapAxis, MapOptions, MeasureMap, no_stone},
+};
 use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.

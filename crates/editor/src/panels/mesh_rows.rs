@@ -5,8 +5,10 @@ use crate::panels::rows::{ChoiceRow, named};
 use brillianteer_cut::Cut;
 use brillianteer_cut::from_mesh::{Evening, Up};
 use brillianteer_files::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, FileAction};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, FileAction},
+};
 use egui::Ui;
 use glam::DVec3;
 

@@ -4,9 +4,11 @@ use crate::panels::row_focus;
 use crate::panels::rows::{ChoiceRow, NUMBER, Row, control_width, explain, named_with_reset};
 use brillianteer_picture::liquid_glass::PaneQuality;
 use brillianteer_session::liquid::{LightMotion, Liquid};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit};
-use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit},
+    render_settings::SettingChange,
+};
 use brillianteer_session::shows::Shows;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;

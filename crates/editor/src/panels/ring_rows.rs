@@ -2,8 +2,10 @@
 
 use crate::panels::rows::{ChoiceRow, Row, wrong};
 use brillianteer_scene::{OuterShape, RING_NUMBERS, Ring, RingNumber, RingStyle};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit},
+};
 use egui::{CollapsingHeader, Ui};
 
 /// How the panel shows a number of a ring.

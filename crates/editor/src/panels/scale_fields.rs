@@ -3,8 +3,10 @@
 
 use crate::panels::rows::{Number, explain, spoken};
 use brillianteer_cut::{Cut, ScaledSide, Tiers};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit},
+};
 use egui::{Align, Layout, Ui, vec2};
 use std::ops::RangeInclusive;
 

@@ -5,9 +5,11 @@ use crate::panels::rows::{ChoiceRow, Row, field_width, named};
 use brillianteer_cut::{Design, MaterialRef};
 use brillianteer_optics::Metal;
 use brillianteer_scene::MetalInstance;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit};
-use brillianteer_session::model::export::kinds;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit},
+    export::kinds,
+};
 use egui::{Align, Button, Label, Layout, Role, Ui, WidgetInfo, vec2};
 use std::ops::RangeInclusive;
 use std::sync::Arc;

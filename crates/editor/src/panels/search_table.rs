@@ -3,12 +3,9 @@
 
 use crate::theme;
 use brillianteer_math::{fixed, signed};
-use brillianteer_measure::Interval;
-use brillianteer_measure::measure_words;
+use brillianteer_measure::{Interval, measure_words};
 use brillianteer_search::MeasureChange;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::cut_search::SearchReport;
-use brillianteer_session::model::goal_form::NumberChoice;
+use brillianteer_session::model::{Model, cut_search::SearchReport, goal_form::NumberChoice};
 use egui::{Color32, Grid, Response, RichText, Ui, vec2};
 use std::cmp::Ordering;
 

@@ -6,12 +6,14 @@ use super::search_plot;
 use super::search_table;
 use crate::theme;
 use brillianteer_measure::measure_words;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, FileAction, SearchAction};
-use brillianteer_session::model::choosing::Purpose;
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState};
-use brillianteer_session::model::goal_form::GoalForm;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, FileAction, SearchAction},
+    choosing::Purpose,
+    command::Command,
+    cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState},
+    goal_form::GoalForm,
+};
 use egui::{
     Button, Context, Pos2, ProgressBar, RichText, ScrollArea, TextStyle, Ui, Vec2, Window, pos2, vec2,
 };

@@ -4,9 +4,11 @@
 
 use crate::panels::design_panel;
 use crate::panels::figures_panel;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
-use brillianteer_session::model::workspace::PanelSide;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+    workspace::PanelSide,
+};
 use egui::{
     Align, Layout, Panel, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
     vec2,

@@ -5,9 +5,11 @@ use crate::panels::rows::{ChoiceRow, NOT_KNOWN, NUMBER, Number, UNKNOWN, named, 
 use brillianteer_cut::{Cut, Design, MaterialRef, Size};
 use brillianteer_math::rounded;
 use brillianteer_optics::{Material, line, materials};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit};
-use brillianteer_session::model::extent::Extent;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit},
+    extent::Extent,
+};
 use egui::{RichText, Ui};
 use std::ops::RangeInclusive;
 

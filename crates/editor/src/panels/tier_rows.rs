@@ -4,9 +4,11 @@
 
 use crate::panels::rows::{ANY, NUMBER, Number, explain, named, named_with_reset, skip_control};
 use brillianteer_cut::{Cut, TierChange};
-use brillianteer_session::model::action::{Actions, Edit};
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::document::Document;
+use brillianteer_session::model::{
+    action::{Actions, Edit},
+    command::Command,
+    document::Document,
+};
 use egui::{Align, Layout, RichText, Ui, vec2};
 
 const MEANING: &str = "A tier: all facets that are cut at one angle and one distance. A change moves this tier \

@@ -6,9 +6,11 @@
 use crate::panels::rows::{ANY, Number, explain, spoken};
 use crate::panels::{gear_fields, scale_fields};
 use brillianteer_cut::{Cut, FROSTINGS, Tier, TierChange, TierZone, Tiers, read_indices};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, Edit, ViewAction};
-use brillianteer_session::model::meet_pick::MeetPick;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, Edit, ViewAction},
+    meet_pick::MeetPick,
+};
 use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
 /// The least, the first and the greatest height of the table, points.

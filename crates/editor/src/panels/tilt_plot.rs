@@ -2,9 +2,11 @@
 
 use super::rows::ChoiceRow;
 use brillianteer_measure::{Interval, measure_words};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
-use brillianteer_session::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+    measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions},
+};
 use egui::{Color32, RichText, Ui};
 use egui_plot::{FilledArea, GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints};
 

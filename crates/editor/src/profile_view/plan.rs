@@ -3,8 +3,11 @@
 use super::sheet::{About, BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::ProfileProjection;
 use brillianteer_cut::{Cut, ProfileHandle};
-use brillianteer_picture::profile::brilliant::{lower_half_ends, star_ends};
-use brillianteer_picture::profile::{Dimensions, Span, percent, spread};
+use brillianteer_picture::profile::{
+    Dimensions, Span,
+    brilliant::{lower_half_ends, star_ends},
+    percent, spread,
+};
 use egui::epaint::MarginF32;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;

@@ -4,11 +4,13 @@ use super::fitting::pick;
 use super::*;
 use brillianteer_files::cut_file;
 use brillianteer_paper::export::OutputFormat;
-use brillianteer_session::model::action::FileAction;
-use brillianteer_session::model::dialog::{Dialog, Then};
-use brillianteer_session::model::export::Selection;
-use brillianteer_session::model::exporting::{ExportEvent, ExportRun};
-use brillianteer_session::model::plan::export_plan;
+use brillianteer_session::model::{
+    action::FileAction,
+    dialog::{Dialog, Then},
+    export::Selection,
+    exporting::{ExportEvent, ExportRun},
+    plan::export_plan,
+};
 use brillianteer_session::tasks::export::run;
 use egui::{Key, Role};
 use std::path::Path;

@@ -5,9 +5,7 @@ use brillianteer_paper::lighting;
 use brillianteer_picture::RefractionMap;
 use brillianteer_picture::liquid_glass::PaneQuality;
 use brillianteer_session::liquid::Liquid;
-use brillianteer_session::model::action::Computed;
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::workspace::Pane;
+use brillianteer_session::model::{action::Computed, command::Command, workspace::Pane};
 use brillianteer_session::studio::ShotLight;
 
 impl Bench {

@@ -6,13 +6,15 @@ use crate::editor::Editor;
 use crate::setup::Setup;
 use brillianteer_render::{Quality, Steps};
 use brillianteer_scene::{Copies, Mipmap, Panorama, Pose};
-use brillianteer_session::model::action::{Edit, FileAction};
-use brillianteer_session::model::dialog::{Dialog, Then};
-use brillianteer_session::model::eye::Eye;
-use brillianteer_session::model::motion::Motion;
-use brillianteer_session::model::plan::export_plan;
-use brillianteer_session::model::preset::Preset;
-use brillianteer_session::model::workspace::{PaneLayout, Workspace};
+use brillianteer_session::model::{
+    action::{Edit, FileAction},
+    dialog::{Dialog, Then},
+    eye::Eye,
+    motion::Motion,
+    plan::export_plan,
+    preset::Preset,
+    workspace::{PaneLayout, Workspace},
+};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::{Smoothing, Which, hung};
 use brillianteer_session::tasks::export_scene::SceneOut;

@@ -4,8 +4,7 @@
 use super::*;
 use brillianteer_cut::{Crown, Tier, TierChange};
 use brillianteer_scene::Side;
-use brillianteer_session::model::action::Edit;
-use brillianteer_session::model::{Action, update};
+use brillianteer_session::model::{Action, action::Edit, update};
 use glam::DVec2;
 
 /// Number of changes, one for each frame of a screen of 60 Hz.

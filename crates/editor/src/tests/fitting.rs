@@ -3,8 +3,7 @@
 use super::row_defaults::double_click_name;
 use super::*;
 use brillianteer_cut::{Finished, MaterialRef, Rough};
-use brillianteer_session::model::dialog::Dialog;
-use brillianteer_session::model::fitting::RetargetForm;
+use brillianteer_session::model::{dialog::Dialog, fitting::RetargetForm};
 use egui::Role;
 
 /// Opens an editor in a window that is high enough for the dialogs.

@@ -2,10 +2,9 @@
 
 use super::*;
 use brillianteer_files::cut_file;
-use brillianteer_session::model::action::FileAction;
-use brillianteer_session::model::dialog::Dialog;
-use brillianteer_session::model::document::Document;
-use brillianteer_session::model::opening::OpeningPurpose;
+use brillianteer_session::model::{
+    action::FileAction, dialog::Dialog, document::Document, opening::OpeningPurpose,
+};
 
 #[test]
 fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_lost() {

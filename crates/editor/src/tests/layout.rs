@@ -4,11 +4,13 @@ use super::*;
 use crate::theme;
 use brillianteer_cut::{Design, MaterialRef};
 use brillianteer_files::{cut_file, design_file};
-use brillianteer_session::model::command::MENUS;
-use brillianteer_session::model::dialog::{Dialog, Then};
-use brillianteer_session::model::document::Document;
-use brillianteer_session::model::exporting::ExportForm;
-use brillianteer_session::model::plan::export_plan;
+use brillianteer_session::model::{
+    command::MENUS,
+    dialog::{Dialog, Then},
+    document::Document,
+    exporting::ExportForm,
+    plan::export_plan,
+};
 use egui::{Color32, Rect, Role, vec2};
 use egui_kittest::kittest::{By, NodeT};
 

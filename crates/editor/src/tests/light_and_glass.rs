@@ -9,8 +9,10 @@ use brillianteer_math::Basis;
 use brillianteer_optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use brillianteer_picture::Bloom;
 use brillianteer_scene::{LIGHTS, Light, light};
-use brillianteer_session::model::render_settings::RenderSettings;
-use brillianteer_session::model::workspace::{PaneLayout, Workspace};
+use brillianteer_session::model::{
+    render_settings::RenderSettings,
+    workspace::{PaneLayout, Workspace},
+};
 use brillianteer_session::studio::{Shot, Smoothing};
 use brillianteer_trace::environment::{Environment, EnvironmentMap};
 use egui::{

@@ -36,10 +36,12 @@ use crate::setup::Setup;
 use crate::views::gallery::Shown;
 use brillianteer_cut::{Cut, RoundBrilliant};
 use brillianteer_scene::Copies;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::choosing::{Choice, Question};
-use brillianteer_session::model::render_settings::RenderSettings;
-use brillianteer_session::model::workspace::{PaneLayout, Workspace};
+use brillianteer_session::model::{
+    Model,
+    choosing::{Choice, Question},
+    render_settings::RenderSettings,
+    workspace::{PaneLayout, Workspace},
+};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::{Grade, Shot, Slot, Which};
 use brillianteer_session::tasks::files::Chooser;

@@ -5,10 +5,12 @@ use brillianteer_cut::from_mesh::{Evening, Up};
 use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_files::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use brillianteer_scene::Specimen;
-use brillianteer_session::model::action::FileAction;
-use brillianteer_session::model::dialog::{Dialog, Then};
-use brillianteer_session::model::document::Document;
-use brillianteer_session::model::opening::{FileRequest, Opening, OpeningPurpose};
+use brillianteer_session::model::{
+    action::FileAction,
+    dialog::{Dialog, Then},
+    document::Document,
+    opening::{FileRequest, Opening, OpeningPurpose},
+};
 use glam::DVec3;
 use std::path::Path;
 

@@ -7,15 +7,17 @@ use crate::editor::Editor;
 use brillianteer_math::bounds;
 use brillianteer_optics::Metal;
 use brillianteer_scene::{MetalInstance, Projection, RingStyle, SceneRing};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::FileAction;
-use brillianteer_session::model::dialog::{Dialog, Then};
-use brillianteer_session::model::plan::export_plan;
-use brillianteer_session::model::recovery::KeptCompanions;
-use brillianteer_session::model::task::Task;
-use brillianteer_session::model::update;
-use brillianteer_session::model::work::Work;
-use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::model::{
+    Model,
+    action::FileAction,
+    dialog::{Dialog, Then},
+    plan::export_plan,
+    recovery::KeptCompanions,
+    task::Task,
+    update,
+    work::Work,
+    workspace::Workspace,
+};
 use brillianteer_session::studio::{Shot, Which};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;

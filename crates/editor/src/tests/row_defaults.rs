@@ -2,12 +2,14 @@
 
 use super::light_and_glass::pick;
 use super::*;
-use brillianteer_session::model::action::{Edit, FileAction, ViewAction};
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::dialog::Then;
-use brillianteer_session::model::render_settings::{RenderSettings, SettingChange};
-use brillianteer_session::model::update;
-use brillianteer_session::model::work::Work;
+use brillianteer_session::model::{
+    action::{Edit, FileAction, ViewAction},
+    command::Command,
+    dialog::Then,
+    render_settings::{RenderSettings, SettingChange},
+    update,
+    work::Work,
+};
 use brillianteer_session::studio::Smoothing;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 

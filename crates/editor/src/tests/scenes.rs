@@ -3,17 +3,19 @@
 use super::copies::{at, bench, drag};
 use super::{Bench, Setup};
 use brillianteer_scene::MetalInstance;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Edit, FileAction};
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::dialog::Then;
-use brillianteer_session::model::plan::export_plan;
-use brillianteer_session::model::preset::Preset;
-use brillianteer_session::model::recovery::KeptCompanions;
-use brillianteer_session::model::render_settings::SettingChange;
-use brillianteer_session::model::update;
-use brillianteer_session::model::work::Work;
-use brillianteer_session::model::workspace::Workspace;
+use brillianteer_session::model::{
+    Model,
+    action::{Edit, FileAction},
+    command::Command,
+    dialog::Then,
+    plan::export_plan,
+    preset::Preset,
+    recovery::KeptCompanions,
+    render_settings::SettingChange,
+    update,
+    work::Work,
+    workspace::Workspace,
+};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::Which;
 use brillianteer_session::tasks::export_scene::SceneOut;

@@ -3,9 +3,11 @@
 use super::fitting::pick;
 use super::*;
 use brillianteer_cut::Design;
-use brillianteer_session::model::action::Edit;
-use brillianteer_session::model::cut_search::{EndedSearch, SearchEnd, SearchState};
-use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::model::{
+    action::Edit,
+    cut_search::{EndedSearch, SearchEnd, SearchState},
+    render_settings::SettingChange,
+};
 use egui::{Role, vec2};
 use egui_kittest::kittest::NodeT;
 use std::path::Path;
@@ -186,8 +188,7 @@ fn another_exposure_does_not_stop_a_search_and_is_a_step_of_its_own() {
 #[test]
 fn another_document_ends_the_search() {
     let mut bench = begun();
-    use brillianteer_session::model::action::FileAction;
-    use brillianteer_session::model::dialog::Then;
+    use brillianteer_session::model::{action::FileAction, dialog::Then};
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("oval".to_owned())));
     bench.harness.run_steps(4);
     bench.click("Don't save");

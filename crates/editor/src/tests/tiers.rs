@@ -4,8 +4,7 @@ use super::row_defaults::double_click;
 use super::*;
 use brillianteer_cut::{Tier, TierChange, TierZone, Tiers};
 use brillianteer_files::design_file::{self, DesignFormat};
-use brillianteer_session::model::action::Edit;
-use brillianteer_session::model::{Action, update};
+use brillianteer_session::model::{Action, action::Edit, update};
 use egui::Role;
 
 /// Returns the tiers of the open design.

@@ -3,9 +3,11 @@
 use crate::polygons;
 use brillianteer_cut::{Cut, TierZone, Tiers};
 use brillianteer_math::{Plane, Polytope};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
-use brillianteer_session::model::cutting::{CuttingProgress, CuttingStep, steps};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+    cutting::{CuttingProgress, CuttingStep, steps},
+};
 use egui::{
     Button, CentralPanel, Color32, DragValue, Key, Mesh, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
     WidgetInfo, pos2, vec2,

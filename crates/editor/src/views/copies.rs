@@ -3,8 +3,10 @@
 use super::pane_context::PaneContext;
 use super::pane_view::PaneView;
 use brillianteer_scene::{Companion, Pose, Specimen};
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Edit, ViewAction};
+use brillianteer_session::model::{
+    Model,
+    action::{Edit, ViewAction},
+};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::{Shot, Which};
 use brillianteer_trace::ray::Camera;

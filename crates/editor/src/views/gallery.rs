@@ -1,11 +1,11 @@
 //! The pictures that the views show, as textures.
 
 use crate::state_file::BlockSizes;
-use crate::textures;
 use brillianteer_session::model::Model;
+use brillianteer_session::pixels::Pixels;
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::{Grade, Shot, Slot, TakenPicture, Which};
-use egui::{Color32, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
+use egui::{Color32, ColorImage, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 use std::collections::HashMap;
 
 /// A picture in a view, with the shot and the grade that it answers.
@@ -69,6 +69,11 @@ impl Gallery {
     }
 }
 
+/// Returns a picture as egui takes it, its cover multiplied into the colours.
+pub fn texture_image(pixels: &Pixels) -> ColorImage {
+    ColorImage::from_rgba_unmultiplied(pixels.size, &pixels.rgba)
+}
+
 /// Replaces the picture in a slot.
 pub fn hang(
     ctx: &Context,
@@ -76,7 +81,7 @@ pub fn hang(
     slot: Slot,
     (shot, grade, taken): (Shot, Grade, TakenPicture),
 ) {
-    let image = textures::image(&taken.image);
+    let image = texture_image(&taken.image);
     let texture = match pictures.remove(&slot) {
         Some(mut shown) => {
             shown.texture.set(image, TextureOptions::LINEAR);
@@ -91,11 +96,7 @@ pub fn hang(
 mod tests {
     use super::*;
     use crate::views::ViewTools;
-    use brillianteer_session::model::action::FileAction;
-    use brillianteer_session::model::dialog::Then;
-    use brillianteer_session::model::update;
-    use brillianteer_session::model::workspace::Workspace;
-    use brillianteer_session::pixels::Pixels;
+    use brillianteer_session::model::{action::FileAction, dialog::Then, update, workspace::Workspace};
 
     #[test]
     fn a_picture_of_a_document_that_has_ended_is_dropped_whenever_it_comes() {

@@ -2,8 +2,10 @@
 
 use super::scene_view::zones;
 use super::tools::ViewTools;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+};
 use egui::{Context, Key, Modifiers, Popup, RichText, Ui, Vec2, Window, vec2};
 
 /// The size of the window at first, points.

@@ -6,8 +6,10 @@ use super::pane_context::{PaneContext, focus};
 use super::view_menu::attend;
 use crate::arrows;
 use brillianteer_session::liquid::{LightMotion, Liquid};
-use brillianteer_session::model::action::{Edit, ViewAction};
-use brillianteer_session::model::render_settings::SettingChange;
+use brillianteer_session::model::{
+    action::{Edit, ViewAction},
+    render_settings::SettingChange,
+};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo};

@@ -1,11 +1,9 @@
 //! Makes the requests for pictures in sight that are looked up or drawn, and not traced.
 
 use super::tools::ViewTools;
-use brillianteer_session::lookup::backdrop;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::ordering::Seen;
+use brillianteer_session::model::{Model, ordering::Seen};
 use brillianteer_session::shows::Shows;
-use brillianteer_session::studio::{Grade, Slot, Which};
+use brillianteer_session::studio::{Grade, Slot, Which, backdrop};
 use brillianteer_session::tasks::lookup::LookupRequest;
 
 /// Returns a request for each picture in sight that is looked up or drawn.

@@ -4,12 +4,14 @@
 use super::pane_context::PaneContext;
 use crate::menus::menu_button;
 use brillianteer_render::USUAL_BOUNCES;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Action, Edit, ViewAction};
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::eye::Eye;
-use brillianteer_session::model::render_settings::SettingChange;
-use brillianteer_session::model::workspace::Pane;
+use brillianteer_session::model::{
+    Model,
+    action::{Action, Edit, ViewAction},
+    command::Command,
+    eye::Eye,
+    render_settings::SettingChange,
+    workspace::Pane,
+};
 use brillianteer_session::shows::Shows;
 use egui::{Button, RichText, TextStyle, Ui};
 use std::path::Path;

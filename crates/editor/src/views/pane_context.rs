@@ -3,11 +3,7 @@
 use super::gallery::Shown;
 use super::tools::ViewTools;
 use crate::menus::entry;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::Actions;
-use brillianteer_session::model::command::Command;
-use brillianteer_session::model::eye::Eye;
-use brillianteer_session::model::session::Flowing;
+use brillianteer_session::model::{Model, action::Actions, command::Command, eye::Eye, session::Flowing};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::Which;
 use egui::{Response, Stroke, Ui};

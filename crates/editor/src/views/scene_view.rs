@@ -8,8 +8,7 @@ use crate::theme::FOUND;
 use brillianteer_cut::Cut;
 use brillianteer_picture::Scoped;
 use brillianteer_scene::Scope;
-use brillianteer_session::model::action::ViewAction;
-use brillianteer_session::model::audit::finding_facets;
+use brillianteer_session::model::{action::ViewAction, audit::finding_facets};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::Which;
 use egui::{

@@ -4,10 +4,12 @@ use super::pane;
 use super::pane_context::PaneContext;
 use super::tools::{Attention, ViewTools};
 use crate::trouble_bar;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
-use brillianteer_session::model::ordering::Seen;
-use brillianteer_session::model::workspace::PaneLayout;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+    ordering::Seen,
+    workspace::PaneLayout,
+};
 use egui::{CentralPanel, Key, Rect, RichText, Ui, UiBuilder, pos2};
 use std::path::Path;
 

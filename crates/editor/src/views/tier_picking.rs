@@ -5,8 +5,10 @@ use super::known_corners::{CornersOfTier, MEETING};
 use super::pane_context::PaneContext;
 use super::pane_view::PaneView;
 use brillianteer_cut::{CornerFault, Meet, TierChange};
-use brillianteer_session::model::action::{Edit, NoteAction, ViewAction};
-use brillianteer_session::model::meet_pick::MeetPick;
+use brillianteer_session::model::{
+    action::{Edit, NoteAction, ViewAction},
+    meet_pick::MeetPick,
+};
 use egui::{Align2, Color32, FontId, Pos2, Response, Stroke, Ui};
 use std::time::Duration;
 

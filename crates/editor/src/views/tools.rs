@@ -5,10 +5,12 @@ use super::gallery::Gallery;
 use super::probe::ProbeCache;
 use super::tier_drag::TierHand;
 use crate::profile_view::ProfileView;
-use brillianteer_session::model::Model;
-use brillianteer_session::model::action::{Actions, ViewAction};
-use brillianteer_session::model::motion::WaveCache;
-use brillianteer_session::model::ordering::Orders;
+use brillianteer_session::model::{
+    Model,
+    action::{Actions, ViewAction},
+    motion::WaveCache,
+    ordering::Orders,
+};
 use brillianteer_session::studio::Paper;
 
 /// The tools of the views besides the model: pictures, caches, and the state of gestures.
@@ -71,8 +73,7 @@ impl Attention {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use brillianteer_session::model::action::Action;
-    use brillianteer_session::model::workspace::Workspace;
+    use brillianteer_session::model::{action::Action, workspace::Workspace};
 
     /// Returns the view that an attention reports as the one that commands act on, and the text for the status line.
     fn reported(attention: Attention) -> (Option<usize>, Option<String>) {

@@ -2,8 +2,10 @@
 
 use super::pane_context::PaneContext;
 use crate::menus::{choose, menu_button, within_window};
-use brillianteer_session::model::action::{DialogAction, ViewAction};
-use brillianteer_session::model::command::Command;
+use brillianteer_session::model::{
+    action::{DialogAction, ViewAction},
+    command::Command,
+};
 use brillianteer_session::shows::Shows;
 use egui::{Response, Ui};
 

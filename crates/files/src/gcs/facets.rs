@@ -5,8 +5,7 @@ use crate::cutters::{self, Gear, TierPiece};
 use crate::numbers::Token;
 use brillianteer_base::Fault;
 use brillianteer_cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
-use brillianteer_math::Plane;
-use brillianteer_math::rounded;
+use brillianteer_math::{Plane, rounded};
 use glam::DVec3;
 use roxmltree::Node;
 

@@ -10,12 +10,11 @@ use brillianteer_cut::from_mesh::{
     Evening, FacetError, FromMesh, TablePart, Up, UpFound, directions, find_up, from_mesh,
 };
 use brillianteer_cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
-use brillianteer_math::at_most;
 use brillianteer_math::faceting::{
     Change, Faceted, NotFaceted, SurfaceKind, Unfaceted, faceted_hull, facets, hull_facets,
 };
 use brillianteer_math::mending::{Mended, OpenPiece, SurfaceError};
-use brillianteer_math::{Pose, Surface, Symmetry, TriangleMesh, signed};
+use brillianteer_math::{Pose, Surface, Symmetry, TriangleMesh, at_most, signed};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -164,7 +163,7 @@ fn known_to(errors: &[FacetError]) -> Option<String> {
 }
 
 /// The warning about facets that were found in spite of noise, of which too few corners tell.
-const UNCERTAIN: &str = "it is noisy, and too coarse to tell which of the facets that were found are true, and how well they are known: some may \
+const UNCERTAIN: &str = "too many of its corners lie off the facets that were found, and too few within them, to tell which facets are true: some may \
                          be parts of one facet or several facets as one, and angles have no standard errors; a scan with less noise or more \
                          corners would tell";
 

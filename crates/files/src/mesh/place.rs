@@ -7,8 +7,7 @@ use crate::mesh_options::{MeshOptions, MeshUnit};
 use brillianteer_base::Fault;
 use brillianteer_cut::MaterialRef;
 use brillianteer_cut::from_mesh::Up;
-use brillianteer_math::Pose;
-use brillianteer_math::Surface;
+use brillianteer_math::{Pose, Surface};
 use glam::DVec3;
 
 /// A direction this near to an axis (length of the difference) goes by the axis's name.

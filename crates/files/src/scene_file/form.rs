@@ -11,8 +11,7 @@ use super::shared::{DEGREES, SizeForm, likely, material, place_mm, shown, within
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
 use brillianteer_base::Fault;
 use brillianteer_cut::is_printable;
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::{Layout, Movement};
+use brillianteer_scene::{BackgroundRef, Layout, Movement};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;

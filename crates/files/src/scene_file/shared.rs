@@ -2,8 +2,7 @@
 
 use super::super::cut_file::material_form::{MaterialForm, path_of};
 use super::super::cut_file::values::{Numbers, OneOf, Pairs};
-use brillianteer_base::Fault;
-use brillianteer_base::nearest;
+use brillianteer_base::{Fault, nearest};
 use brillianteer_cut::{MaterialRef, Size, SizeError};
 use brillianteer_optics::Metal;
 use brillianteer_scene::POLISHED;

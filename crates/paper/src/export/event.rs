@@ -1,7 +1,6 @@
 //! The events and the progress that long work reports.
 
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use std::path::Path;
 
 /// An event of long work, for the user.

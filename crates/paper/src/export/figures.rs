@@ -2,8 +2,7 @@
 
 use super::event::Reporter;
 use super::viewing::{Viewing, note};
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_measure::{Bounds, Estimate, Measured, UNRESOLVED};
 use brillianteer_picture::Scoped;
 use brillianteer_render::{Backend, FiguresProduct, Product, Renderer};

@@ -1,8 +1,7 @@
 //! The figures of a stone's hearts and arrows, and their JSON.
 
 use super::viewing::Viewing;
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_measure::{
     ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows,
 };

@@ -3,8 +3,7 @@
 use super::event::{Event, Reporter};
 use super::figures::seen_from;
 use super::viewing::{Viewing, note};
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_measure::{
     Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings, SampledNumber,
     hemisphere_return,

@@ -5,8 +5,7 @@ use super::sheet::{ScopeSheet, SheetFile, UNRESOLVED, how, in_percent, remark};
 use super::viewing::{Viewing, note};
 use super::{Export, OutputFormat, Outputs, write_text};
 use crate::{note_of_letters, rasterize, write_exr, write_png};
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_picture::{
     DiagramStyle, DrawnMarks, Layer, Palette, Picture, Scoped, marked_diagram, profile, vector,
 };

@@ -3,8 +3,7 @@
 use super::event::Reporter;
 use super::sheet::{ScopeSheet, UNRESOLVED, remark, traced};
 use super::viewing::{Viewing, note};
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_picture::{Caption, Palette, Scoped};
 use brillianteer_render::{Partial, Product, Reading, Renderer, ScopeProduct};
 use brillianteer_scene::Film;

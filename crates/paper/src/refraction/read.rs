@@ -2,8 +2,7 @@
 
 use super::codes::{self, Codes};
 use super::{About, MOST_MAP_BANDS, Template, foreign, tiles};
-use brillianteer_base::Fault;
-use brillianteer_base::FileError;
+use brillianteer_base::{Fault, FileError};
 use brillianteer_optics::linear_from_encoded;
 use brillianteer_picture::{LUMINANCE, Linear, MapBand, RefractionMap, SourcePlace};
 use glam::{DMat3, DVec3};

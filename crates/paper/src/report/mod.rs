@@ -20,8 +20,7 @@ pub use html::report_html;
 
 use super::export::{Reporter, Viewing, WorkShares};
 use super::pdf;
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_files::{WriteError, write as write_whole};
 use brillianteer_picture::{PaperSize, Report, report_pages};
 use brillianteer_render::Renderer;

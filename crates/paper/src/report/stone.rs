@@ -7,8 +7,7 @@ use crate::export::{
     Event, FigureReport, HeartsReport, MeasureReport, Reporter, Viewing, WorkShares, hearts, light_measures,
     measure,
 };
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_cut::{Cut, Outline};
 use brillianteer_math::{Basis, Symmetry};
 use brillianteer_measure::{Interval, MeasureName, facet_deviations};

@@ -2,8 +2,7 @@
 
 use crate::export::Viewing;
 use crate::plot::{PlotAxis, PlotCurve, PlotError, curves};
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_measure::{LightMeasures, MeasureName, MeasureSettings};
 use brillianteer_optics::line;
 use brillianteer_picture::EmbeddedDrawing;

@@ -1,8 +1,7 @@
 //! Scenes that the editor can work on: copies of one design with their companions, light and backplate.
 
 use super::render_settings::RenderSettings;
-use brillianteer_base::Failure;
-use brillianteer_base::FileError;
+use brillianteer_base::{Failure, FileError};
 use brillianteer_cut::{Cut, Design, MaterialRef};
 use brillianteer_files::assembly::{Assembly, StonePlace};
 use brillianteer_files::library;

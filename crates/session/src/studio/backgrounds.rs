@@ -2,12 +2,10 @@
 //! a rough picture in the meantime: before a coarse background, or without one.
 
 use crate::urgency;
-use brillianteer_base::Failure;
-use brillianteer_base::{Watch, unwatched};
+use brillianteer_base::{Failure, Watch, unwatched};
 use brillianteer_paper::background;
 use brillianteer_picture::PATTERN_SIDE;
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::Mipmap;
+use brillianteer_scene::{BackgroundRef, Mipmap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -5,9 +5,7 @@ use crate::pixels::Pixels;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_paper::refraction::code_of;
 use brillianteer_picture::{Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
-use brillianteer_scene::Background;
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::Film;
+use brillianteer_scene::{Background, BackgroundRef, Film};
 use std::sync::Arc;
 
 /// Returns the settings by which the render of a shot is developed; `fine` where there is time for glow.

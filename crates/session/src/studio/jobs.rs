@@ -2,7 +2,6 @@
 
 use super::effort::Effort;
 use super::order::{FiguresOrder, Shot};
-use crate::lookup::backdrop;
 use brillianteer_measure::Bounds;
 use brillianteer_optics::line;
 use brillianteer_picture::{Backdrop, Scoped, filling};
@@ -10,8 +9,9 @@ use brillianteer_render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,
 };
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
+use brillianteer_scene::{
+    BackgroundRef, Film, Instance, Mipmap, Panorama, Pattern, Pose, Scene, Scope, View,
+};
 use brillianteer_trace::beam::BeamOptions;
 use brillianteer_trace::ray::RayOptions;
 use glam::DVec2;
@@ -183,4 +183,12 @@ impl FiguresOrder {
         let product = Product::Figures(FiguresProduct { scope, medium });
         Job { scene: Arc::new(Scene::alone(&self.specimen)), view, film: Film::NONE, product, quality }
     }
+}
+
+/// The backplate where a picture needs one and none is chosen.
+const FIRST_BACKDROP: Pattern = Pattern::Page;
+
+/// Returns the backplate of a picture that needs one: the chosen one where it is a picture, else a pattern.
+pub fn backdrop(chosen: Option<&BackgroundRef>) -> BackgroundRef {
+    chosen.filter(|chosen| chosen.is_picture()).cloned().unwrap_or(BackgroundRef::Pattern(FIRST_BACKDROP))
 }

@@ -31,7 +31,7 @@ pub use order::{
 
 pub use backgrounds::COARSE_FILM;
 pub use effort::{Effort, FINE, Grain};
-pub use jobs::{BEHIND, SPAN, hung};
+pub use jobs::{BEHIND, SPAN, backdrop, hung};
 pub use mailbox::Wake;
 pub use refracted::survey;
 pub use render::ExportedRender;

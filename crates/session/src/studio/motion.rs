@@ -3,8 +3,7 @@
 use super::order::{Shot, Slot};
 use brillianteer_cut::{Cut, Glass};
 use brillianteer_picture::{Linear, MotionVector, TemporalHistory};
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::{Body, Companions, Film, Pose, Specimen, View};
+use brillianteer_scene::{BackgroundRef, Body, Companions, Film, Pose, Specimen, View};
 use brillianteer_trace::ray;
 use brillianteer_trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};

@@ -4,15 +4,13 @@ use super::shot_light::ShotLight;
 use crate::liquid::Liquid;
 use crate::pixels::Pixels;
 use crate::shows::Shows;
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_measure::Figures;
 use brillianteer_picture::DrawnMarks;
 pub use brillianteer_picture::Smoothing;
 use brillianteer_picture::{Inks, Overlay, RefractionMap};
 use brillianteer_render::{Sweep, SweepError, SweptStone};
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::{Companions, Film, Glare, Pose, Specimen, View};
+use brillianteer_scene::{BackgroundRef, Companions, Film, Glare, Pose, Specimen, View};
 use std::borrow::Cow;
 use std::sync::Arc;
 

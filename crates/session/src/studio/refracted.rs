@@ -7,9 +7,8 @@ use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
 use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
-use crate::lookup::as_screens;
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
+use crate::pixels::Pixels;
+use brillianteer_base::{Failure, Watch};
 use brillianteer_picture::{Carried, Develop, RefractionMap};
 use brillianteer_render::{Job, Rendered, Renderer};
 
@@ -58,7 +57,7 @@ impl ShotTracer {
         let rendered = run(&mut self.renderer, &job, watch)?;
         let tracer = rendered.backend.kind();
         Ok(TakenPicture {
-            image: as_screens(&rendered.pane()?.0),
+            image: Pixels::encoded(&rendered.pane()?.0),
             unresolved: None,
             tracer,
             coarser: 1.0,

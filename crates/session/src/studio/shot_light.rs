@@ -2,10 +2,8 @@
 //!
 //! Whatever is refined, exported or copied is made under the whole light.
 
-use brillianteer_base::Failure;
-use brillianteer_base::Watch;
-use brillianteer_trace::environment::EnvironmentMap;
-use brillianteer_trace::environment::Lighting;
+use brillianteer_base::{Failure, Watch};
+use brillianteer_trace::environment::{EnvironmentMap, Lighting};
 use std::sync::Arc;
 
 /// The light of a shot. While the map of a world is drawn, a coarse one is at hand for rough pictures; all others wait for

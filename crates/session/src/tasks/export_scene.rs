@@ -8,8 +8,9 @@ use brillianteer_base::Failure;
 use brillianteer_files::mesh::write_shaded;
 use brillianteer_files::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, RingEntry, SceneFile};
 use brillianteer_files::{WriteError, cut_file, write};
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::{Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen};
+use brillianteer_scene::{
+    BackgroundRef, Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen,
+};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

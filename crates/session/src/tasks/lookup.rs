@@ -1,15 +1,12 @@
 //! Makes pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it.
 
-use crate::lookup::as_screens;
+use crate::pixels::Pixels;
 use crate::studio::{COARSE_FILM, Grade, SPAN, Shot, TakenPicture};
-use brillianteer_base::Failure;
-use brillianteer_base::{Watch, unwatched};
+use brillianteer_base::{Failure, Watch, unwatched};
 use brillianteer_paper::background;
 use brillianteer_picture::liquid_glass::{GlassPane, PreparedPane, SeenThrough};
-use brillianteer_picture::{Linear, RefractionMap, refract};
-use brillianteer_picture::{PATTERN_SIDE, filling};
-use brillianteer_scene::BackgroundRef;
-use brillianteer_scene::Panorama;
+use brillianteer_picture::{Linear, PATTERN_SIDE, RefractionMap, filling, refract};
+use brillianteer_scene::{BackgroundRef, Panorama};
 use glam::DVec2;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::{Arc, OnceLock};
@@ -103,7 +100,13 @@ impl Backgrounds {
                 (self.liquid_glass(&glass, &request.behind, size, watch)?, "arithmetic")
             }
         };
-        Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, coarser: 1.0, map: None })
+        Ok(TakenPicture {
+            image: Pixels::encoded(&picture),
+            unresolved: None,
+            tracer,
+            coarser: 1.0,
+            map: None,
+        })
     }
 
     /// Draws a pane of liquid glass. Unaffected parts are not computed again: where only the light moves, nothing is
