@@ -8,13 +8,11 @@ use brillianteer::picture::{
     spectral::{Remainder, expose, seen},
 };
 use brillianteer::scene::{Body, Film, Instance, Light, Mipmap, Panorama, Scene, View};
+#[cfg(feature = "gpu")]
+use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 use brillianteer::trace::{
     beam,
     environment::{Backplate, Environment, EnvironmentMap},
-};
-#[cfg(feature = "gpu")]
-use brillianteer::trace::{
-    gpu::{ByCard, Gpu, GpuEnvironment, GpuError},
     ray::{ByRays, RayOptions},
     sampling::{LitScene, Sampling},
 };

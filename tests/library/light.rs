@@ -5,7 +5,8 @@ use crate::common::*;
 use brillianteer::math::Polytope;
 use brillianteer::optics::{Illuminant, materials};
 #[cfg(feature = "gpu")]
-use brillianteer::scene::{Instance, Light, Panorama, Projection, View, light};
+use brillianteer::scene::Projection;
+use brillianteer::scene::{Instance, Light, Panorama, View, light};
 use glam::{DVec2, DVec3};
 
 /// A modern ideal cut, with a coarse girdle that is quick to trace.

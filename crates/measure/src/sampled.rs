@@ -5,7 +5,8 @@ use super::figures::Figures;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::SolidRef;
 #[cfg(feature = "gpu")]
-use brillianteer_scene::{Film, Medium, Scope, View};
+use brillianteer_scene::Film;
+use brillianteer_scene::{Medium, Scope, View};
 #[cfg(feature = "gpu")]
 use brillianteer_trace::ScopeShot;
 #[cfg(feature = "gpu")]

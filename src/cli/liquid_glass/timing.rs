@@ -2,7 +2,8 @@
 
 use brillianteer_picture::Linear;
 #[cfg(feature = "gpu")]
-use brillianteer_picture::liquid_glass::{GlassPane, PaneQuality, PanesOnCard, PreparedPane, pane};
+use brillianteer_picture::liquid_glass::PanesOnCard;
+use brillianteer_picture::liquid_glass::{GlassPane, PaneQuality, PreparedPane, pane};
 use brillianteer_scene::Panorama;
 #[cfg(feature = "gpu")]
 use brillianteer_trace::gpu::{Gpu, GpuError};
