@@ -13,9 +13,11 @@ use brillianteer_measure::{Bounds, STANDARD_ERROR};
 use brillianteer_optics::line;
 use brillianteer_render::{
     Backend, Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer,
-    ScopeProduct, Steps, Surroundings, USUAL_BOUNCES, Wanted,
+    ScopeProduct, Steps, Surroundings, Wanted,
 };
-use brillianteer_scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View, Viewpoint};
+use brillianteer_scene::{
+    ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, USUAL_BOUNCES, View, Viewpoint,
+};
 use brillianteer_trace::beam;
 use brillianteer_trace::environment::{EnvironmentMap, Lighting};
 use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};

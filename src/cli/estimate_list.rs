@@ -2,7 +2,8 @@
 
 use super::specimen::LoadedSpecimen;
 use brillianteer_base::Failure;
-use brillianteer_cut::{ClassEstimate, Unit};
+use brillianteer_base::Unit;
+use brillianteer_cut::ClassEstimate;
 use brillianteer_math::fixed;
 use brillianteer_measure::brilliant_proportions;
 use serde_json::{Value, json};

@@ -5,7 +5,8 @@ use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
 use super::specimen::note_namesakes;
 use brillianteer_base::Failure;
-use brillianteer_cut::{Cut, ScaledSide, Unit};
+use brillianteer_base::Unit;
+use brillianteer_cut::{Cut, ScaledSide};
 use brillianteer_math::signed;
 use brillianteer_measure::{Interval, MeasureName};
 use brillianteer_render::{

@@ -7,9 +7,10 @@ use super::meets::KnownMeets;
 use super::specimen::{LoadedSpecimen, weight};
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
+use brillianteer_base::Unit;
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{
-    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
+    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, tier_stem,
 };
 use brillianteer_files::STANDARD;
 use brillianteer_files::assembly::{Assembly, MadeRing};
@@ -135,7 +136,7 @@ fn scene_json(assembly: &Assembly) -> Value {
     json!({
         "file": assembly.path,
         "name": assembly.name,
-        "light": assembly.light,
+        "light": assembly.look.light,
         "unit_mm": assembly.scene.unit_mm,
         "carats": assembly.carats(),
         "ring": assembly.ring.as_ref().map(ring_json),
@@ -146,9 +147,7 @@ fn scene_json(assembly: &Assembly) -> Value {
 
 fn scene_table(assembly: &Assembly) -> String {
     let mut text = heading(&assembly.path, &assembly.name);
-    if let Some(light) = &assembly.light {
-        let _ = writeln!(text, "  {:<28}{}", "light", light.display());
-    }
+    let _ = writeln!(text, "  {:<28}{}", "light", assembly.look.light);
     if !assembly.scene.instances.is_empty() {
         let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
     }

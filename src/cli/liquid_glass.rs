@@ -5,16 +5,16 @@ mod timing;
 use super::console::{print, say, written};
 use super::options::number;
 use super::picture_options::film_size;
-use super::picturing::within;
+use super::picture_options::within;
 use super::progress::WorkProgress;
 use brillianteer_base::Failure;
 use brillianteer_files::{STANDARD, is_standard};
 use brillianteer_optics::linear_from_encoded;
 use brillianteer_paper::{background, write_linear_exr, write_rgba_png};
 use brillianteer_picture::liquid_glass::{Cost, GlassPane, LightFrom, PaneQuality, Shifts, layer, pane};
-use brillianteer_picture::{Develop, Linear, Tone, develop};
+use brillianteer_picture::{Develop, Linear, develop};
 use brillianteer_render::{Job, PaneProduct, Quality, Renderer};
-use brillianteer_scene::{BackgroundRef, Panorama};
+use brillianteer_scene::{BackgroundRef, Panorama, Tone};
 use clap::Args;
 use glam::{DVec2, DVec4};
 use std::path::{Path, PathBuf};
@@ -161,7 +161,7 @@ impl LiquidGlass {
                     .into(),
             ));
         }
-        let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, 1e-3, 100.0)?);
+        let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, [1e-3, 100.0])?);
         let background = self.ground()?;
         let description = self.description(&pane_asked);
         let draw = if self.alone { layer } else { pane };
@@ -221,7 +221,7 @@ impl LiquidGlass {
             )));
         }
         let most = size.min_element() / 2.0;
-        let strength = |key, value| within(key, value, 0.0, 100.0);
+        let strength = |key, value| within(key, value, [0.0, 100.0]);
         Ok(GlassPane {
             refraction: strength("refraction", self.refraction)?,
             depth: strength("depth", self.depth)?,
@@ -234,7 +234,7 @@ impl LiquidGlass {
             ..GlassPane::clear(
                 corner,
                 size,
-                within("radius", self.radius.unwrap_or(2.0 * ROUND * most), 0.0, most)?,
+                within("radius", self.radius.unwrap_or(2.0 * ROUND * most), [0.0, most])?,
             )
         })
     }

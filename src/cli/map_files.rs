@@ -7,8 +7,8 @@ use brillianteer_paper::refraction::{
     Coding, MOST_MEGABYTES, Page, diffuse_path, paths, takes, write_diffuse, write_page, write_places,
 };
 use brillianteer_paper::{background, write_rgba_png};
-use brillianteer_picture::{Develop, RefractionMap, Tone, develop, refract};
-use brillianteer_scene::{BackgroundRef, Panorama};
+use brillianteer_picture::{Develop, RefractionMap, develop, refract};
+use brillianteer_scene::{BackgroundRef, Panorama, Tone};
 use clap::ValueEnum;
 use glam::DVec2;
 use std::path::{Path, PathBuf};

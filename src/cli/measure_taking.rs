@@ -1,6 +1,6 @@
 //! Takes the measures of a design, for the commands that vary it.
 
-use super::options::{ViewOptions, number};
+use super::options::{ViewOptions, checked_head, number};
 use super::specimen::{note_namesakes, note_no_fire};
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
@@ -37,10 +37,7 @@ impl MeasureTaking {
         if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
             return refused(format!("--unresolved {}: give a part between 0 and 1", self.unresolved));
         }
-        if !(0.0..=90.0).contains(&self.head) {
-            return refused(format!("--head {}: give 0 to 90 degrees", self.head));
-        }
-        Ok(())
+        checked_head(self.head).map(drop)
     }
 
     /// Loads a design, and returns its sweep over these axes, with these measures.

@@ -1,6 +1,7 @@
 //! Options that several commands share: the viewpoint, and the settings by which light is traced.
 
 use super::choice::{TRACERS, one_of};
+use super::picture_options::within;
 use super::specimen::{LoadedSpecimen, note_colour};
 use brillianteer_base::{Failure, nearest};
 use brillianteer_files::scope_file;
@@ -9,7 +10,7 @@ use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};
 use brillianteer_paper::export::Viewing;
 use brillianteer_picture::{Picture, Scoped, named, names};
 use brillianteer_render::{Renderer, Unfit, Wanted};
-use brillianteer_scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
+use brillianteer_scene::{Glare, HEADS_DEG, Lean, Medium, Projection, Side, Viewpoint};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
@@ -288,12 +289,7 @@ pub fn extrapolation(material: &Material, nm: f64) -> Option<String> {
 /// Returns the half angle of an observer's head, in degrees.
 ///
 /// # Errors
-/// Fails where the angle is not from 0 to below 90.
+/// Fails where it is out of the range of heads.
 pub fn checked_head(degrees: f64) -> Result<f64, Failure> {
-    match (0.0..90.0).contains(&degrees) {
-        true => Ok(degrees),
-        false => Err(Failure::Usage(format!(
-            "--head: a half angle of {degrees} degrees is not from 0 to below 90"
-        ))),
-    }
+    within("head", degrees, HEADS_DEG)
 }

@@ -4,10 +4,15 @@
 use super::choice::{MOVEMENTS, TRACERS, one_of};
 use super::options::{OptionError, number};
 use super::specimen_options::SpecimenOptions;
-use brillianteer_picture::{Bloom, Overlay, Smoothing, Tone};
-use brillianteer_render::{USUAL_BOUNCES, Wanted};
-use brillianteer_scene::Movement;
+use brillianteer_base::Failure;
+use brillianteer_picture::Overlay;
+use brillianteer_render::Wanted;
+use brillianteer_scene::{
+    BACKGROUND_DISTANCE, BOUNCES, BackgroundRef, EXPOSURE, GLOW, HEAD, LIGHT_TURN, Look, Movement, STRENGTH,
+    Smoothing, Tone, WAVELENGTHS,
+};
 use clap::Args;
+use std::path::Path;
 
 /// The largest side of a picture under light, in pixels.
 pub const MOST_PIXELS: u32 = 8192;
@@ -25,15 +30,16 @@ pub struct PictureOptions {
     /// worlds stand upright in any case
     #[arg(long)]
     pub upright: bool,
-    /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's; in a scope none, for measures the usual one]
+    /// Half angle of the observer's head, which blocks light, in DEGREES [default: the scene's, or the light's; in a scope none, for measures
+    /// the usual one]
     #[arg(long, value_name = "DEGREES", value_parser = number)]
     pub head: Option<f64>,
     /// Pixels: a number for a square, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "1024", value_parser = film_size)]
     pub size: [u32; 2],
-    /// Wavelengths of each sample, 1 to 64
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub wavelengths: u32,
+    /// Wavelengths of each sample, 1 to 64 [default: the scene's, or 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub wavelengths: Option<u32>,
     /// Samples of each pixel, each at its own wavelengths and, by rays, at its own place in the pixel [default: 4 by exact
     /// beams, 64 by rays]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
@@ -47,9 +53,9 @@ pub struct PictureOptions {
     /// Brighten the picture by STOPS
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = number)]
     pub exposure: f64,
-    /// Tone curve: linear, neutral or filmic
-    #[arg(long, value_name = "CURVE", default_value = "neutral")]
-    pub tone: Tone,
+    /// Tone curve: linear, neutral or filmic [default: the scene's, or neutral]
+    #[arg(long, value_name = "CURVE")]
+    pub tone: Option<Tone>,
     /// The background: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for the
     /// light itself, a world (sunset, room, city), a pattern (page, grid, checks, stripes, dots, slit), or a
     /// photograph's file; by default the scene's, or #33373d-#0e0f11
@@ -82,15 +88,15 @@ pub struct FinishOptions {
     #[arg(long, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
     /// Follow light through at most N bounces inside a stone, 1 to 64, to see what each adds; the rest of the light
-    /// is dark. Below 64 the picture is traced by rays
-    #[arg(long, value_name = "N", default_value_t = USUAL_BOUNCES, value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub bounces: u32,
+    /// is dark. Below 64 the picture is traced by rays [default: the scene's, or 64]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub bounces: Option<u32>,
     /// The tracer of the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_parser = one_of(&TRACERS), default_value = "auto")]
     pub tracer: Wanted,
-    /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
-    #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]
-    pub bloom: f64,
+    /// Part of the light of sparkles that is spread as glow, 0 to 1 [default: the scene's, or 0.16]
+    #[arg(long, visible_alias = "bloom", value_name = "PART", value_parser = number)]
+    pub glow: Option<f64>,
     /// Smooth edges beyond what samples do: `none`; `fxaa`, in the finished picture, for few samples; or `temporal`, as the
     /// editor does while anything moves: samples, and the frames of `spin`, are blended one after the other, the newest by
     /// half, or by PART with temporal:PART
@@ -108,12 +114,58 @@ impl Default for FinishOptions {
         Self {
             no_jitter: false,
             strength: None,
-            bounces: USUAL_BOUNCES,
+            bounces: None,
             tracer: Wanted::Rays,
-            bloom: 0.0,
+            glow: Some(0.0),
             smoothing: Smoothing::None,
             overlay: vec![],
         }
+    }
+}
+
+/// Returns the value of the option `--key` if it is from `least` to `most`, and a usage error otherwise.
+pub fn within(key: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, Failure> {
+    if (least..=most).contains(&value) {
+        return Ok(value);
+    }
+    Err(Failure::Usage(format!("--{key} {value}: give {least} to {most}")))
+}
+
+impl PictureOptions {
+    /// Returns what a picture of a scene is made with: what these options say, and `own`, the scene's, for all else. The turn of
+    /// the light and the exposure are added to the scene's. `unit_mm` is the scene's girdle radius.
+    ///
+    /// # Errors
+    /// Fails where a number is out of its range, or where there is no such background.
+    pub fn look(&self, finish: &FinishOptions, own: &Look, unit_mm: f64) -> Result<Look, Failure> {
+        let mut look = own.clone();
+        let count = |count: Option<u32>| count.map(f64::from);
+        for (key, row, value) in [
+            ("turn", &LIGHT_TURN, Some(self.turn)),
+            ("head", &HEAD, self.head),
+            ("exposure", &EXPOSURE, Some(self.exposure)),
+            ("wavelengths", &WAVELENGTHS, count(self.wavelengths)),
+            ("glow", &GLOW, finish.glow),
+            ("bounces", &BOUNCES, count(finish.bounces)),
+            ("strength", &STRENGTH, finish.strength),
+        ] {
+            let Some(value) = value else { continue };
+            (row.set)(&mut look, within(key, value, row.range)?);
+        }
+        look.light_turn += own.light_turn;
+        look.exposure += own.exposure;
+        if let Some(radii) = self.photo_distance {
+            let range = BACKGROUND_DISTANCE.range.map(|mm| (mm / unit_mm).floor());
+            look.background_mm = Some(within("photo-distance", radii, range)? * unit_mm);
+        }
+        self.light.iter().for_each(|light| look.light.clone_from(light));
+        look.light_upright |= self.upright;
+        look.tone = self.tone.unwrap_or(look.tone);
+        look.smoothing = finish.smoothing;
+        if let Some(background) = &self.background {
+            look.background = Some(BackgroundRef::read(background, Path::new(""))?);
+        }
+        Ok(look)
     }
 }
 

@@ -2,18 +2,18 @@
 
 use super::console::{report, say};
 use super::options::unfit;
-use super::picture_options::{FinishOptions, PictureOptions};
+use super::picture_options::{FinishOptions, PictureOptions, within};
 use super::specimen::note_colour;
 use brillianteer_base::{Failure, Watch};
 use brillianteer_files::assembly::Assembly;
 use brillianteer_paper::export::Event;
 use brillianteer_paper::{Finish, StoredLight, background, lighting};
-use brillianteer_picture::{Bloom, Develop, Overlay, Smoothing, Tone};
+use brillianteer_picture::{Bloom, Develop, Overlay};
 use brillianteer_render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
-use brillianteer_scene::{BackgroundRef, Film, Mipmap, Scene, View, Viewpoint};
+use brillianteer_scene::{BackgroundRef, Film, Look, Mipmap, Scene, Smoothing, Tone, View, Viewpoint};
 use brillianteer_trace::environment::Lighting;
 use brillianteer_trace::ray::{self, Camera, RayOptions};
 use glam::DVec2;
@@ -30,9 +30,6 @@ const MARGIN: f64 = 0.06;
 /// The default background.
 const BACKGROUND: &str = "#33373d-#0e0f11";
 
-/// The default distance of a world, pattern or photograph behind the origin, in girdle radii.
-const PHOTO_DISTANCE: f64 = 3.0;
-
 /// The setup of pictures, loaded once: stones, light, background, tracer and finish.
 pub struct PictureSetup<'a> {
     options: &'a PictureOptions,
@@ -40,14 +37,13 @@ pub struct PictureSetup<'a> {
     pub assembly: Assembly,
     /// The viewpoint of the stones, in the scene's perspective where the scene has one.
     pub viewpoint: Viewpoint,
+    /// What the pictures are made with.
+    pub look: Look,
     lighting: Arc<Lighting>,
+    /// The background, also where the look names none.
     pub background: BackgroundRef,
     /// The world, pattern or photograph behind the stones.
     pub photo: Option<Arc<Mipmap>>,
-    /// The distance of the world, pattern or photograph behind the origin, in girdle radii.
-    pub distance: f64,
-    /// The strength of refraction, 0 to 1.
-    pub strength: f64,
     pub develop: Develop,
     renderer: RefCell<Renderer>,
     /// With temporal smoothing, the history of the samples so far.
@@ -62,14 +58,6 @@ pub struct RenderedPicture {
     pub description: String,
 }
 
-/// Returns the value of the option `--key` if it is from `least` to `most`, and a usage error otherwise.
-pub fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failure> {
-    if (least..=most).contains(&value) {
-        return Ok(value);
-    }
-    Err(Failure::Usage(format!("--{key} {value}: give {least} to {most}")))
-}
-
 impl<'a> PictureSetup<'a> {
     /// Loads stones, light and background, prints their warnings, and chooses the tracer for a view.
     pub fn load(
@@ -79,7 +67,7 @@ impl<'a> PictureSetup<'a> {
     ) -> Result<Self, Failure> {
         let mut assembly = options.specimen.load_assembly(file)?;
         if let Some(seconds) = options.moment {
-            let seconds = within("moment", seconds, 0.0, 1e5)?;
+            let seconds = within("moment", seconds, [0.0, 1e5])?;
             let refused = |error: Failure| match error {
                 Failure::Input(message) => Failure::Input(format!("{message} (leave out --moment)")),
                 other => other,
@@ -87,30 +75,18 @@ impl<'a> PictureSetup<'a> {
             assembly = assembly.at_moment(seconds, options.movement).map_err(refused)?;
         }
         assembly.scene.instances.iter().for_each(|stone| note_colour(&stone.material));
-        let own = assembly.light.as_ref().map(|light| light.display().to_string());
-        let light = options.light.as_ref().or(own.as_ref());
-        let mut lighting = lighting::load(light.map_or("studio", String::as_str))?;
+        let look = options.look(finish, &assembly.look, assembly.scene.unit_mm)?;
+        let lighting = lighting::load(&look.light)?;
         lighting.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
-        if let Some(head) = options.head {
-            lighting.light.head = within("head", head, 0.0, 89.0)?;
-        }
-        within("turn", options.turn, -1e6, 1e6)?;
-        let own = assembly.background_distance_mm.map(|mm| mm / assembly.scene.unit_mm);
-        let distance = options.photo_distance.or(own).unwrap_or(PHOTO_DISTANCE);
-        within("photo-distance", distance, 0.0, 1e6)?;
-        let strength = within("strength", finish.strength.unwrap_or(assembly.strength), 0.0, 1.0)?;
-        let bloom = Bloom { strength: within("bloom", finish.bloom, 0.0, 1.0)?, ..Bloom::default() };
+        // The stones' glow would stand out around the overlays that are drawn over them.
+        let glows = look.glow > 0.0 && finish.overlay.is_empty();
         let mut develop = Develop {
-            exposure: within("exposure", options.exposure, -40.0, 40.0)? + assembly.exposure,
-            tone: options.tone,
-            // The stones' glow would stand out around the overlays that are drawn over them.
-            bloom: (bloom.strength > 0.0 && finish.overlay.is_empty()).then_some(bloom),
+            exposure: look.exposure,
+            tone: look.tone,
+            bloom: glows.then(|| Bloom { strength: look.glow, ..Bloom::default() }),
             ..Develop::default()
         };
-        let background = match (&options.background, &assembly.background) {
-            (None, Some(own)) => own.clone(),
-            (asked, _) => BackgroundRef::read(asked.as_deref().unwrap_or(BACKGROUND), Path::new(""))?,
-        };
+        let background = look.background.clone().unwrap_or_else(|| BACKGROUND.into());
         if let BackgroundRef::Plain(plain) = background {
             develop.background = plain;
         }
@@ -123,11 +99,10 @@ impl<'a> PictureSetup<'a> {
             options,
             finish,
             assembly,
+            look,
             lighting: Arc::new(lighting),
             background,
             photo,
-            distance,
-            strength,
             develop,
             renderer: RefCell::new(Renderer::new(Card::Machine)),
             trail: RefCell::new(None),
@@ -156,13 +131,18 @@ impl<'a> PictureSetup<'a> {
         Ok(plan.backend.description())
     }
 
+    /// Returns the distance of a world, pattern or photograph behind the origin, in girdle radii.
+    pub fn distance(&self) -> f64 {
+        self.look.distance(self.assembly.scene.unit_mm)
+    }
+
     /// Returns the job of a picture of a scene, with pixels of the side `pixel`.
     pub fn job(&self, scene: &Arc<Scene>, view: &View, pixel: f64) -> Job {
         let product = Product::Light(LightProduct {
             surroundings: self.surroundings(pixel),
-            wavelengths: self.options.wavelengths,
+            wavelengths: self.look.wavelengths,
             adapted: !self.options.unadapted,
-            strength: self.strength,
+            strength: self.look.strength,
             jitter: !self.finish.no_jitter,
             steps: Steps::Strips,
         });
@@ -175,22 +155,24 @@ impl<'a> PictureSetup<'a> {
         let hung = |picture: &Arc<Mipmap>| HungPicture {
             picture: Arc::clone(picture),
             span: self.background.span(),
-            distance: self.distance,
+            distance: self.distance(),
             frame: Film::new(self.options.size, pixel),
         };
+        let usual = Surroundings::of(Arc::clone(&self.lighting));
         Surroundings {
-            is_upright: self.assembly.light_upright || self.options.upright,
-            turn: (self.assembly.light_turn + self.options.turn).to_radians(),
+            is_upright: self.look.light_upright,
+            turn: self.look.light_turn.to_radians(),
+            head: self.look.head.map_or(usual.head, f64::to_radians),
             shows_light: self.background == BackgroundRef::Light,
             backplate: self.photo.as_ref().map(hung),
-            ..Surroundings::of(Arc::clone(&self.lighting))
+            ..usual
         }
     }
 
     /// Returns the quality with which pictures are traced.
     pub fn quality(&self) -> Quality {
         let usual = Quality::of_pictures(!self.options.unpolarised);
-        let rays = RayOptions { most_bounces: self.finish.bounces, ..usual.rays };
+        let rays = RayOptions { most_bounces: self.look.bounces, ..usual.rays };
         Quality { tracer: self.finish.tracer, samples: self.options.samples, rays, ..usual }
     }
 
@@ -211,7 +193,7 @@ impl<'a> PictureSetup<'a> {
     /// Takes a picture. Where the card fails, the processor traces this picture and, if the card is lost, all later ones. With
     /// temporal smoothing its samples are blended one after the other.
     pub fn take(&self, job: &Job, watch: Watch) -> Result<RenderedPicture, Failure> {
-        match self.finish.smoothing {
+        match self.look.smoothing {
             Smoothing::Temporal { newest } => self.take_over_time(job, newest, watch),
             Smoothing::None | Smoothing::Fxaa => self.take_at_once(job, watch),
         }
@@ -229,7 +211,7 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns the settings by which a picture is developed, with the chosen overlays.
     pub fn finish<'j>(&'j self, job: &'j Job) -> Finish<'j> {
-        let fxaa = self.finish.smoothing == Smoothing::Fxaa;
+        let fxaa = self.look.smoothing == Smoothing::Fxaa;
         Finish { develop: self.develop, fxaa, overlays: &self.finish.overlay, lit_scene: job.lit() }
     }
 
@@ -247,7 +229,7 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns a description of the light, the tracer and any mixture in words.
     pub fn description(&self) -> String {
-        format!("light {}; {}{}", self.lighting.light.name, self.tracer, mixture_note(self.strength))
+        format!("light {}; {}{}", self.lighting.light.name, self.tracer, mixture_note(self.look.strength))
     }
 
     /// Returns the light's name.
@@ -261,7 +243,7 @@ impl<'a> PictureSetup<'a> {
         let is_told = exposure != 0.0
             || tone != Tone::default()
             || !self.finish.overlay.is_empty()
-            || self.finish.smoothing == Smoothing::Fxaa;
+            || self.look.smoothing == Smoothing::Fxaa;
         is_told.then_some("an EXR holds the bare light: exposure, tone, FXAA and overlays are for PNG")
     }
 

@@ -4,7 +4,7 @@
 use super::console::written;
 use super::map_files::{MapFiles, MapKind, folder, kinds_or_usual};
 use super::options::number;
-use super::picturing::within;
+use super::picture_options::within;
 use super::progress::WorkProgress;
 use super::specimen::stem;
 use brillianteer_base::Failure;
@@ -95,7 +95,7 @@ impl RefractionTemplate {
 impl RefractionImport {
     pub fn run(&self) -> Result<(), Failure> {
         folder(&self.out)?;
-        within("span", self.span, 1.0, 100.0)?;
+        within("span", self.span, [1.0, 100.0])?;
         let background = match &self.background {
             Some(text) => BackgroundRef::read(text, Path::new(""))?,
             None => BackgroundRef::Plain(Background::Transparent),

@@ -5,8 +5,8 @@ use super::batch::{distinct, each_file};
 use super::console::say;
 use super::map_files::{MapFiles, MapKind, folder, kinds_or_usual};
 use super::options::{ViewOptions, number};
-use super::picture_options::{FinishOptions, PictureOptions};
-use super::picturing::{PictureSetup, within};
+use super::picture_options::{FinishOptions, PictureOptions, within};
+use super::picturing::PictureSetup;
 use super::progress::WorkProgress;
 use super::specimen::stem;
 use brillianteer_base::Failure;
@@ -66,7 +66,7 @@ impl RefractionMaps {
                 "--bands, --places: these are {all} maps, and a page takes {MOST_MAP_BANDS} at most; give fewer"
             ));
         }
-        within("span", self.span, 1.0, 100.0)?;
+        within("span", self.span, [1.0, 100.0])?;
         distinct(&self.files)?;
         each_file(&self.files, false, |file| self.make(file))
     }
@@ -86,12 +86,12 @@ impl RefractionMaps {
             // The scene's background and the default are colours or the light itself, which a map does not show.
             studio.background = BackgroundRef::Plain(Background::Transparent);
         }
-        if studio.strength < 1.0 {
-            let (name, strength) = (&studio.assembly.name, studio.strength);
+        if studio.look.strength < 1.0 {
+            let (name, strength) = (&studio.assembly.name, studio.look.strength);
             say(&format!(
                 "note: {name}: its strength of {strength} is ignored, because a refraction map is physics"
             ));
-            studio.strength = 1.0;
+            studio.look.strength = 1.0;
         }
         let kinds = kinds_or_usual(&self.format, studio.photo.is_some())?;
         let bar = WorkProgress::new(&studio.assembly.name);
@@ -106,7 +106,7 @@ impl RefractionMaps {
              light comes from the background, {:.1} % of that from the map's places; {}",
             self.bands,
             self.places,
-            studio.distance,
+            studio.distance(),
             self.span,
             if self.both_sides { ", on both sides" } else { "" },
             tracer,
@@ -130,7 +130,7 @@ impl RefractionMaps {
     fn trace(&self, studio: &PictureSetup, view: &View, bar: &WorkProgress) -> Result<Rendered, Failure> {
         let scene = Arc::new(studio.assembly.scene.clone());
         let pixel = studio.pixel(&scene, view)?;
-        let distance = studio.distance;
+        let distance = studio.distance();
         let [across, down] = self.picture.size.map(f64::from);
         let product = MapProduct {
             surroundings: studio.surroundings(pixel),
@@ -141,9 +141,9 @@ impl RefractionMaps {
             },
             bands: self.bands,
             places: self.places,
-            shades: self.picture.wavelengths,
+            shades: studio.look.wavelengths,
             adapted: !self.picture.unadapted,
-            strength: studio.strength,
+            strength: studio.look.strength,
         };
         let film = Film::new(self.picture.size, pixel);
         let product = Product::RefractionMap(product);

@@ -35,7 +35,7 @@ const OF_LIGHT: [&str; 18] = [
     "no_jitter",
     "strength",
     "bounces",
-    "bloom",
+    "glow",
     "smoothing",
     "overlay",
 ];

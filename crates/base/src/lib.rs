@@ -1,5 +1,5 @@
-//! What every room shares: work that can be watched and stopped, faults in what people wrote, with their places, and names that
-//! are nearly what was asked for.
+//! What every room shares: work that can be watched and stopped, faults in what people wrote, with their places, names that
+//! are nearly what was asked for, and numbers that people set.
 
 // A test may list as many cases as it has.
 #![cfg_attr(test, allow(clippy::too_many_lines))]
@@ -7,9 +7,13 @@
 mod at_once;
 mod fault;
 mod nearest;
+mod number_row;
+mod unit;
 mod watch;
 
 pub use at_once::at_once;
 pub use fault::{Failure, Fault, FileError, NameOrFileError};
 pub use nearest::{nearest, slips};
+pub use number_row::{NumberError, NumberRow};
+pub use unit::Unit;
 pub use watch::{Stopped, Watch, go_on, unwatched};

@@ -4,10 +4,10 @@
 //! The class is the worst of those of single proportions and of a limit for crown, pavilion and table together, which
 //! is our own fit. docs/optics.md, "Estimate after GIA", describes its reliability.
 
-use super::family::Unit;
 use super::proportions::Proportions;
 use super::published_ranges::PUBLISHED_RANGES;
 use super::round_brilliant::{LowerHalf, RoundBrilliant};
+use brillianteer_base::Unit;
 use serde::Serialize;
 use std::fmt;
 

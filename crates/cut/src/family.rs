@@ -5,6 +5,7 @@
 
 use super::Cut;
 use super::family_cut::{MakeNet, TotalDepth};
+use brillianteer_base::Unit;
 use std::fmt;
 
 /// A family of cuts, shaped by proportions.
@@ -116,40 +117,6 @@ impl Bound {
     }
 }
 
-/// The unit of a proportion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
-    /// Percent of the girdle diameter, or of the quantity that the row names.
-    Percent,
-    /// Degrees from the girdle plane, or from the one that the row names.
-    Degrees,
-    /// A whole number.
-    Count,
-    /// A quotient of two lengths, or an exponent.
-    Ratio,
-}
-
-impl Unit {
-    /// Returns the name of the unit; those of a count and a ratio are empty.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Percent => "percent",
-            Self::Degrees => "degrees",
-            Self::Count | Self::Ratio => "",
-        }
-    }
-}
-
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Percent => " %",
-            Self::Degrees => "°",
-            Self::Count | Self::Ratio => "",
-        })
-    }
-}
-
 /// A part of the profile that is pulled to change one proportion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProfileHandle {
@@ -237,7 +204,7 @@ impl Proportion {
         let held = self.pair.filter(|_| !(self.is_given)(cut)).and_then(|key| cut.proportion(key));
         let value = match self.unit {
             Unit::Count => value.round().max(self.usual[0]).min(self.usual[1]),
-            Unit::Percent | Unit::Degrees | Unit::Ratio => value,
+            _ => value,
         };
         self.give(cut, value);
         held.into_iter().for_each(|other| other.hold(cut));

@@ -2,8 +2,9 @@
 
 use super::Cut;
 use super::family::BoundAt::{Fixed, Of};
-use super::family::{Bound, Family, Proportion, Unit};
+use super::family::{Bound, Family, Proportion};
 use super::glass::{Glass, Plate, Sides};
+use brillianteer_base::Unit;
 use brillianteer_math::{MOST_WAVES, STEEPEST};
 use std::f64::consts::TAU;
 

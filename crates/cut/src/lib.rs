@@ -60,7 +60,7 @@ pub use design::{DEFAULT_DIAMETER_MM, DIAMETERS_MM, Design, DesignError, MAX_PLA
 pub use facet_net::NoRoom;
 pub use facet_zones::FacetZones;
 pub use families::{BY_TIERS, FAMILIES, GROUPS};
-pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
+pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion};
 pub use family_body::FamilySolid;
 pub use family_cut::FamilyCut;
 pub use frosting::{FROSTINGS, FinishNote, USUAL_FROSTING, with_finish};

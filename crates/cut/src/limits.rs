@@ -183,9 +183,9 @@ impl Proportion {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
     use super::super::round_brilliant::{Crown, LowerHalf, MODERN, Pavilion, RoundBrilliant};
     use super::*;
+    use brillianteer_base::Unit;
 
     fn text(given: RoundBrilliant) -> String {
         given.derived().unwrap_err().to_string()

@@ -5,7 +5,8 @@
 //! steps more.
 
 use super::Cut;
-use super::family::{Proportion, Unit};
+use super::family::Proportion;
+use brillianteer_base::Unit;
 
 /// The most steps of the secant method. Two are enough where the number is linear in the factor.
 const MOST_STEPS: usize = 40;
@@ -43,7 +44,7 @@ impl Proportion {
     fn scaled(&self, value: f64, factor: f64) -> f64 {
         match self.unit {
             Unit::Degrees => (value.to_radians().tan() * factor).atan().to_degrees(),
-            Unit::Percent | Unit::Count | Unit::Ratio => value * factor,
+            _ => value * factor,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The error for a crossed limit: the proportion, the excess, and the remedy.
 
-use super::family::{Proportion, Unit};
+use super::family::Proportion;
+use brillianteer_base::Unit;
 use brillianteer_math::as_written;
 use std::f64::consts::FRAC_PI_2;
 

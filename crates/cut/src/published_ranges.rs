@@ -5,7 +5,7 @@
 //! total depth are published in two versions, so they are left out.
 
 use super::class_estimate::{BrilliantProportions, CutClass};
-use super::family::Unit;
+use brillianteer_base::Unit;
 
 /// The ranges of one proportion.
 pub struct PublishedRange {

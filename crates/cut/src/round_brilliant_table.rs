@@ -5,10 +5,11 @@
 
 use super::Cut;
 use super::family::BoundAt::{Fixed, Of};
-use super::family::{Bound, Family, ProfileHandle, Proportion, Unit};
+use super::family::{Bound, Family, ProfileHandle, Proportion};
 use super::proportions::{Derived, Proportions, STAR_AZIMUTH};
 use super::published_ranges;
 use super::round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
+use brillianteer_base::Unit;
 use std::f64::consts::FRAC_PI_8;
 
 /// The flattest bezel or main, degrees.

@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use super::family::{Family, Proportion, Unit};
+use super::family::{Family, Proportion};
 use super::family_cut::FamilyCut;
 use super::proportion_error::rounded;
 use super::proportions::{Proportions, STAR_AZIMUTH};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::shape::Cut;
+use brillianteer_base::Unit;
 use brillianteer_math::as_written;
 
 /// A property of a stone that its owner may not have meant: a proportion, and its consequence.

@@ -10,12 +10,12 @@ use brillianteer_cut::{Design, MaterialRef, Size};
 use brillianteer_math::{ShadedMesh, bounds};
 use brillianteer_optics::{Material, Metal};
 use brillianteer_scene::{
-    BackgroundRef, Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene,
-    Specimen, Viewpoint, overlapping,
+    Instance, Look, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene, Specimen,
+    Viewpoint, overlapping,
 };
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 mod moment;
@@ -24,7 +24,7 @@ mod ring;
 #[cfg(test)]
 mod tests;
 
-/// A single stone or the stones of a scene, with the light and the background that the scene names.
+/// A single stone or the stones of a scene, with what its pictures are made with.
 #[derive(Debug)]
 pub struct Assembly {
     /// The path of the file, or the name of the cut or scene that comes with the program.
@@ -37,24 +37,12 @@ pub struct Assembly {
     pub scene: Scene,
     /// The kind and the place of each stone, in the order of the instances of `scene`.
     pub places: Vec<StonePlace>,
-    /// The light that the scene names: one that comes with the program, or a file.
-    pub light: Option<PathBuf>,
-    /// The background that the scene names.
-    pub background: Option<BackgroundRef>,
-    /// The distance of the background behind the origin, in mm, if the scene gives one.
-    pub background_distance_mm: Option<f64>,
-    /// The strength of refraction, 0 to 1.
-    pub strength: f64,
+    /// What pictures of the scene are made with; the usual of a stone alone.
+    pub look: Look,
     /// How plates move where time goes on.
     pub movement: Movement,
     /// The angle of view of the scene's perspective, in degrees, if it has one.
     pub angle_of_view: Option<f64>,
-    /// The scene's exposure, in stops.
-    pub exposure: f64,
-    /// The angle by which the scene turns its light about its axis, in degrees.
-    pub light_turn: f64,
-    /// True where the light's axis points up in the picture, false where it points to the eye.
-    pub light_upright: bool,
     /// The scene's ring.
     pub ring: Option<MadeRing>,
     /// Notes and warnings about the files that were read, each with its path, as they are printed.
@@ -147,15 +135,9 @@ impl Assembly {
             design: Some(Design { diameter_mm, ..made.design.clone() }),
             scene: Scene { instances: vec![stone], metals: vec![], unit_mm: 0.5 * diameter_mm },
             places: vec![place],
-            light: None,
-            background: None,
-            background_distance_mm: None,
-            strength: 1.0,
+            look: Look::default(),
             movement: Movement::default(),
             angle_of_view: None,
-            exposure: 0.0,
-            light_turn: 0.0,
-            light_upright: false,
             ring: None,
             remarks,
             other_readings,
@@ -209,15 +191,9 @@ impl Assembly {
             design: None,
             scene: stones,
             places,
-            light: scene.light,
-            background: scene.background,
-            background_distance_mm: scene.background_distance_mm,
-            strength: scene.strength,
+            look: scene.look,
             movement: scene.movement,
             angle_of_view: scene.angle_of_view,
-            exposure: scene.exposure,
-            light_turn: scene.light_turn,
-            light_upright: scene.light_upright,
             ring,
             remarks,
             other_readings,
@@ -259,7 +235,7 @@ pub fn stone_count(file: &Path, scene: &SceneFile) -> Result<usize, Failure> {
 /// Returns the scene in a file, or the scene of that name that comes with the program; `None` where it is not a scene.
 fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
     if file.is_file() || is_standard(file) {
-        return Ok(scene_file::is_scene(file).then(|| scene_file::read(file)).transpose()?);
+        return Ok(scene_file::read_if_scene(file)?);
     }
     let name = file.display().to_string();
     let known = library::scene(&name).map(|text| scene_file::parse(text, &name, None));

@@ -9,7 +9,7 @@ use brillianteer_base::FileError;
 use brillianteer_cut::from_mesh::Up;
 use brillianteer_cut::{MaterialRef, Size, is_printable};
 use brillianteer_math::Pose;
-use brillianteer_scene::{MOST_STONES, Movement};
+use brillianteer_scene::{Look, MOST_STONES, Movement};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -71,17 +71,11 @@ fn placed(file: &Path, stones: Vec<Entry>) -> SceneFile {
     let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     SceneFile {
         name: stem.filter(|name| is_printable(name)).unwrap_or_else(|| "bodies".to_owned()),
-        light: None,
+        look: Look::default(),
         layout: None,
         gap_mm: DEFAULT_GAP_MM,
-        light_turn: 0.0,
-        light_upright: false,
-        background: None,
-        background_distance_mm: None,
-        strength: 1.0,
         movement: Movement::default(),
         angle_of_view: None,
-        exposure: 0.0,
         stones,
         metals: vec![],
         ring: None,

@@ -68,7 +68,7 @@ pub(super) fn design(text: &str) -> Result<(Design, Vec<String>), Fault> {
     text::check_size(text.len(), most)?;
     let toml = TomlText::parse(text)?;
     check_format(&toml)?;
-    let families = FAMILIES.map(|family| family.key);
+    let families = FAMILIES.map(|family| ("", family.key));
     let (design, lines) =
         toml.read_beside(&families, FamilyForm::take_all, |form: DesignForm, families| {
             form.design(&families)

@@ -9,16 +9,17 @@ use super::toml_text::TomlText;
 use brillianteer_base::{Fault, FileError};
 use brillianteer_cut::{MaterialRef, Size};
 use brillianteer_optics::Metal;
-use brillianteer_scene::{BackgroundRef, LIGHTS, Layout, MOST_STONES, Movement, Pose, light};
-use form::SceneForm;
+use brillianteer_scene::{BackgroundRef, LIGHTS, Layout, Look, MOST_STONES, Movement, Pose, light};
+use form::{SceneForm, SceneNumbers};
 use glam::{DQuat, DVec3};
 pub use ring_entry::RingEntry;
 use shared::{Angles, leaning, likely, shown};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toml::de::DeTable;
 
 mod form;
 mod metal_form;
+mod numbers;
 mod ring_entry;
 mod ring_form;
 mod shared;
@@ -37,29 +38,16 @@ pub const DEFAULT_GAP_MM: f64 = 0.5;
 pub struct SceneFile {
     /// The scene's name, printable.
     pub name: String,
-    /// The name of a light that comes with the program, or the path of a light file, the scene's folder included.
-    pub light: Option<PathBuf>,
+    /// What its pictures are made with; files that it names are named from the scene's folder.
+    pub look: Look,
     /// The layout of the stones; `None` where each states its own place.
     pub layout: Option<Layout>,
     /// The least distance between two stones of a layout, seen from the table, in mm.
     pub gap_mm: f64,
-    /// The angle by which the light is turned about its axis, counter-clockwise seen from the axis's end, in degrees.
-    pub light_turn: f64,
-    /// True where the light's axis points up in pictures, with its azimuth 0 behind the middle; else it points to the
-    /// eye.
-    pub light_upright: bool,
-    /// The background behind the stones.
-    pub background: Option<BackgroundRef>,
-    /// The distance of a world, pattern or photograph behind the middle of all stones, in mm, from 0.
-    pub background_distance_mm: Option<f64>,
-    /// The strength of refraction: the part of its turn that refracted light takes, 0 (straight on) to 1 (physics).
-    pub strength: f64,
     /// How plates move where time goes on.
     pub movement: Movement,
     /// The angle of view of a perspective, across the longer extent of the stones, in degrees; `None` for parallel rays.
     pub angle_of_view: Option<f64>,
-    /// The exposure, in stops.
-    pub exposure: f64,
     /// The kinds of stones; with their counts they are at most [`MOST_STONES`] stones. There are none only where there is metal or a ring.
     pub stones: Vec<Entry>,
     /// The bodies of metal.
@@ -175,9 +163,22 @@ impl MetalEntry {
 /// # Errors
 /// Fails where the file cannot be read or is no scene; the error names path, line and key.
 pub fn read(path: &Path) -> Result<SceneFile, FileError> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let scene = text::read(path, MAX_BYTES).and_then(|text| scene(&text, Some(folder)));
+    let scene = text::read(path, MAX_BYTES).and_then(|text| scene(&text, Some(folder_of(path))));
     scene.map_err(|fault| fault.in_file(path.display()))
+}
+
+/// Reads a file that may be a scene, once; `None` where it is none, as [`is_scene`] finds.
+///
+/// # Errors
+/// Fails where the file is meant as a scene and is none; the error names path, line and key.
+pub fn read_if_scene(path: &Path) -> Result<Option<SceneFile>, FileError> {
+    let text = text::read(path, MAX_BYTES).ok().filter(|text| is_meant_as_scene(text));
+    text.map(|text| parse(&text, &path.display().to_string(), Some(folder_of(path)))).transpose()
+}
+
+/// Returns the folder from which a scene file names other files.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
 }
 
 /// Reads a scene from the text of its file; `label` stands for its path in errors, `folder` is the folder of the
@@ -218,7 +219,8 @@ fn scene(text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
     text::check_size(text.len(), MAX_BYTES)?;
     let toml = TomlText::parse(text)?;
     check_format(&toml)?;
-    toml.read(|form: SceneForm| form.scene(text, folder))
+    let make = |form: SceneForm, numbers| form.scene(&numbers, text, folder);
+    toml.read_beside(&SceneNumbers::keys(), SceneNumbers::take, make).map(|(scene, _)| scene)
 }
 
 /// Reads the name of a background; a file is sought from the scene's folder.
@@ -228,12 +230,12 @@ fn behind(given: &str, folder: Option<&Path>) -> Result<BackgroundRef, Fault> {
 }
 
 /// Returns a light's name as it is, or else the path of its file beside the scene.
-fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
+fn found(given: &str, folder: Option<&Path>) -> Result<String, Fault> {
     if light(given).is_some() {
-        return Ok(given.into());
+        return Ok(given.to_owned());
     }
     if let Some(path) = folder.map(|folder| folder.join(given)).filter(|path| path.is_file()) {
-        return Ok(path);
+        return Ok(path.to_string_lossy().into_owned());
     }
     let what = "is neither a light of the program nor a file beside this one";
     Err(Fault::key("light", format!("light: '{}' {what}{}", shown(given), likely(given, &LIGHTS))))

@@ -1,15 +1,16 @@
 //! Reads TOML texts, each parsed once, with faults that name the line by the spans of the parsed values.
 
 use super::text::line_after;
-use brillianteer_base::{Fault, nearest};
+use brillianteer_base::{Fault, NumberRow, nearest};
 use brillianteer_cut::{FAMILIES, Family};
+use brillianteer_scene::LOOK_NUMBERS;
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
 /// The meanings of keys, for someone who left a key out or wrote something else. Those of proportions are in their
 /// families' tables.
-const MEANINGS: [(&str, &str); 55] = [
+const MEANINGS: [(&str, &str); 51] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -28,17 +29,13 @@ const MEANINGS: [(&str, &str); 55] = [
     ("valid_nm", "[first, last]"),
     ("density", "g/cm³"),
     ("light", "a light's name, or a file"),
-    ("light_turn", "degrees about the light's axis"),
     ("light_upright", "true or false"),
     ("layout", "row, ring or parcel"),
     ("style", "band, four-prong, six-prong, halo or eternity"),
     ("metal", "gold, platinum, silver or rhodium"),
     ("gap_mm", "mm between the girdles of a layout"),
-    ("strength", "of refraction, 0 to 1; 1 is physics"),
     ("angle_of_view", "degrees of a perspective"),
-    ("exposure", "stops"),
     ("background", "a colour, light, the name of a world or a pattern, or a photograph"),
-    ("background_distance_mm", "mm behind the middle of the stones"),
     ("stone", "a table [[stone]] for each kind"),
     ("cut", "a cut's name, or a cut file"),
     ("count", "how many"),
@@ -48,7 +45,7 @@ const MEANINGS: [(&str, &str); 55] = [
     ("from", "degrees of elevation at which it begins, -90 to 90"),
     ("colour", "[red, green, blue] of sRGB, 0 to 255 each"),
     ("spectrum", "D65, A, E, or daylight such as 5000 K"),
-    ("head", "half angle of the observer's head, degrees, 0 for none"),
+    ("tone", "neutral, filmic or linear"),
     ("dome", "belts of the sky, each a table [[dome]]"),
     ("box", "rectangles of light, each a table [[box]]"),
     ("lamp", "discs of light, each a table [[lamp]]"),
@@ -139,11 +136,11 @@ impl<'t> TomlText<'t> {
         self.read_beside(&[], |_| Ok(()), |form, ()| make(form)).map(|(made, _)| made)
     }
 
-    /// Reads the form of a text that may have further keys at its top, which `take` takes out and reads first. Returns what
-    /// `make` makes of both, and the lines of the keys.
+    /// Reads the form of a text that may have further keys, which `take` takes out and reads first; each is given with the name
+    /// of its table, which is empty at the top. Returns what `make` makes of both, and the lines of the keys.
     pub(crate) fn read_beside<T: Deserialize<'t>, B, U>(
         self,
-        further: &[&str],
+        further: &[(&str, &str)],
         take: impl FnOnce(&mut DeTable<'t>) -> Result<B, Error>,
         make: impl FnOnce(T, B) -> Result<U, Fault>,
     ) -> Result<(U, KeyLines<'t>), Fault> {
@@ -209,14 +206,17 @@ fn syntax(text: &str, error: &Error) -> Fault {
 }
 
 /// Makes a fault of serde's error about a text that does not have the form of its file, in the words of this program.
-fn misshapen(text: &str, mut error: Error, further: &[&str]) -> Fault {
+fn misshapen(text: &str, mut error: Error, further: &[(&str, &str)]) -> Fault {
     // Without its text the error shows the path of its key on a line of its own: in `plane.normal`.
     error.set_input(None);
     let shown = error.to_string();
     let path = shown.trim_end().rsplit_once("\nin `").and_then(|(_, path)| path.strip_suffix('`'));
+    let keys_of = |path: &str| -> Vec<&str> {
+        further.iter().filter(|(table, _)| *table == path).map(|(_, key)| *key).collect()
+    };
     let problem = match path {
-        Some(path) => format!("{path}: {}", reworded(error.message(), path, &[])),
-        None => reworded(error.message(), "", further),
+        Some(path) => format!("{path}: {}", reworded(error.message(), path, &keys_of(path))),
+        None => reworded(error.message(), "", &keys_of("")),
     };
     let line = error.span().map(|span| line_at(text, span.start));
     Fault { line, ..Fault::whole(problem) }
@@ -293,6 +293,7 @@ pub(super) fn in_plain_words(message: &str) -> String {
 fn meaning(table: &str, key: &str) -> String {
     let row = Family::of_key(table).and_then(|family| family.proportion(key));
     let found = MEANINGS.iter().find(|(known, _)| *known == key).map(|(_, meaning)| (*meaning).to_owned());
-    let found = row.map(|row| row.hint()).or(found);
+    let number = LOOK_NUMBERS.into_iter().find(|row| row.key == key);
+    let found = row.map(|row| row.hint()).or_else(|| number.map(NumberRow::hint)).or(found);
     found.map(|meaning| format!(" ({meaning})")).unwrap_or_default()
 }

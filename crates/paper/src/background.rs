@@ -9,8 +9,8 @@ use brillianteer_base::Watch;
 use brillianteer_files::panorama::{self, LoadedPanorama};
 use brillianteer_files::text::unreadable;
 use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
-use brillianteer_picture::{PATTERN_SIDE, Tone, pattern_drawing};
-use brillianteer_scene::{BackgroundRef, PATTERN_SPAN, Panorama, Pattern, World};
+use brillianteer_picture::{PATTERN_SIDE, pattern_drawing, toned};
+use brillianteer_scene::{BackgroundRef, PATTERN_SPAN, Panorama, Pattern, Tone, World};
 
 /// The greatest width of a photograph that is kept as it is; larger ones are halved.
 const WIDEST: u32 = 4096;
@@ -107,7 +107,7 @@ pub fn bytes(asked: &BackgroundRef) -> Result<Option<Vec<u8>>, FileError> {
         }
         BackgroundRef::World(world) => {
             let picture = hung(*world, PATTERN_SIDE);
-            let shown = |light: &[f32; 3]| Tone::Neutral.shown(*light, 1.0).map(encoded);
+            let shown = |light: &[f32; 3]| toned(Tone::Neutral, *light, 1.0).map(encoded);
             let rgb: Vec<u8> = picture.pixels.iter().flat_map(shown).collect();
             let size = [picture.width, picture.height];
             let file = png(size, (ColorType::Rgb, BitDepth::Eight), &rgb, &[]);
@@ -209,7 +209,7 @@ mod tests {
         let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
         assert_eq!(reader.next_frame(&mut rgb).unwrap().width, PATTERN_SIDE);
         let wrong = |(light, code): (&[f32; 3], &[u8; 3])| {
-            let shown = Tone::Neutral.shown(*light, 1.0).map(|c| encoded_from_linear(f64::from(c)) * 255.0);
+            let shown = toned(Tone::Neutral, *light, 1.0).map(|c| encoded_from_linear(f64::from(c)) * 255.0);
             (0..3).any(|c| (shown[c] - f64::from(code[c])).abs() > 0.51)
         };
         assert!(!hung.pixels.iter().zip(rgb.as_chunks::<3>().0).any(wrong));

@@ -14,6 +14,7 @@ mod star;
 pub(super) use glare::GatheredGlare;
 
 use super::linear::LightRows;
+use brillianteer_scene::USUAL_GLOW;
 use glare::{BrightPass, halved};
 use grid::{LightGrid, SOFTENED};
 use rayon::prelude::*;
@@ -37,7 +38,7 @@ pub struct Bloom {
 impl Default for Bloom {
     /// Returns settings tuned by eye on stones whose sparkles are 2 to 50 times as bright as white.
     fn default() -> Self {
-        Self { strength: 0.16, radius: 0.03, streaks: 6, streak_length: 0.018, threshold: 1.0 }
+        Self { strength: USUAL_GLOW, radius: 0.03, streaks: 6, streak_length: 0.018, threshold: 1.0 }
     }
 }
 

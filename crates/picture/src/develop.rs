@@ -1,10 +1,10 @@
 //! Develops a picture in linear light into one that screens can show.
 
 use super::linear::LightRows;
-use super::tone::reachable;
-use super::{Bloom, Linear, Tone};
+use super::tone::{reachable, toned};
+use super::{Bloom, Linear};
 use brillianteer_optics::SrgbEncoder;
-use brillianteer_scene::Background;
+use brillianteer_scene::{Background, Tone};
 use rayon::prelude::*;
 use std::convert::Infallible;
 
@@ -118,7 +118,7 @@ pub(super) fn exposed(&[r, g, b, cover]: &[f32; 4], gain: f32) -> [f32; 4] {
 /// Returns a pixel as a screen can show it, by the tone curve.
 pub(super) fn shown([r, g, b, cover]: [f32; 4], manner: &Develop) -> [f32; 4] {
     let white = 1000_f64.min(manner.white).max(0.1) as f32;
-    let [r, g, b] = manner.tone.shown(reachable([r, g, b]), white);
+    let [r, g, b] = toned(manner.tone, reachable([r, g, b]), white);
     [r, g, b, cover]
 }
 

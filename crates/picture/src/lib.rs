@@ -31,7 +31,6 @@ mod raster;
 mod refraction;
 mod report;
 mod sheet;
-mod smoothing;
 pub mod spectral;
 mod strips;
 mod temporal;
@@ -67,7 +66,6 @@ pub use report::{
     TextFlow, report_pages,
 };
 pub use sheet::{BlockKind, CuttingSheet, PaperSize, SheetBlock, SheetRow, sheet_pages};
-pub use smoothing::Smoothing;
 pub use temporal::{MotionVector, TemporalHistory};
-pub use tone::{Tone, reachable};
+pub use tone::{reachable, toned};
 pub use views::{Picture, Scoped, named, names};

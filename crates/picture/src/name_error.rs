@@ -1,11 +1,8 @@
-//! The error of a text that names no tone, quality or overlay.
+//! The error of a text that names no quality or overlay.
 
-/// The reason why a text names no tone, quality or overlay; the message lists the names.
+/// The reason why a text names no quality or overlay; the message lists the names.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
-    /// The text names no tone.
-    #[error("tone '{}': give neutral, filmic or linear", start(.0))]
-    Tone(String),
     /// The text names no quality of liquid glass.
     #[error("give high, medium or low")]
     Quality,

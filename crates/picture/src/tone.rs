@@ -1,20 +1,7 @@
 //! Tone curves, which compress light of any brightness to the range of a screen.
 
-use super::NameError;
 use super::linear::luminance;
-use std::str::FromStr;
-
-/// The curve that brings bright light below 1. Every curve begins at 0 and rises.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Tone {
-    /// Light that a screen can show stays as it is, and brighter light is cut at 1: for tests and comparisons.
-    Linear,
-    /// Light up to 0.8 stays as it is. Brighter light keeps its hue and turns white as it nears 1.
-    #[default]
-    Neutral,
-    /// The curve of film: deep shadows, soft highlights, and a little more contrast between them.
-    Filmic,
-}
+use brillianteer_scene::Tone;
 
 /// The light at which compression begins (Khronos PBR Neutral).
 const COMPRESSED_FROM: f32 = 0.8;
@@ -27,15 +14,13 @@ const FILM: [f32; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
 /// The light at which the fit reaches 1: the greater root of (a − c) x² + (b − d) x − e.
 const FILM_IS_WHITE: f32 = 7.241_62;
 
-impl Tone {
-    /// Returns the screen's values, each channel from 0 to 1, for linear light that is not below 0. `white` is the
-    /// light that [`Filmic`](Self::Filmic) shows as white; the other curves do not use it.
-    pub fn shown(self, light: [f32; 3], white: f32) -> [f32; 3] {
-        match self {
-            Self::Linear => light.map(|c| c.min(1.0)),
-            Self::Neutral => neutral(light),
-            Self::Filmic => light.map(|c| film(c * (FILM_IS_WHITE / white))),
-        }
+/// Returns the screen's values, each channel from 0 to 1, for linear light that is not below 0, by a tone curve. `white` is
+/// the light that [`Tone::Filmic`] shows as white; the other curves do not use it.
+pub fn toned(tone: Tone, light: [f32; 3], white: f32) -> [f32; 3] {
+    match tone {
+        Tone::Linear => light.map(|c| c.min(1.0)),
+        Tone::Neutral => neutral(light),
+        Tone::Filmic => light.map(|c| film(c * (FILM_IS_WHITE / white))),
     }
 }
 
@@ -80,19 +65,6 @@ pub fn reachable(light: [f32; 3]) -> [f32; 3] {
     light.map(|c| (y + (c - y) * part).max(0.0))
 }
 
-impl FromStr for Tone {
-    type Err = NameError;
-
-    fn from_str(text: &str) -> Result<Self, NameError> {
-        match text {
-            "linear" => Ok(Self::Linear),
-            "neutral" => Ok(Self::Neutral),
-            "filmic" => Ok(Self::Filmic),
-            _ => Err(NameError::Tone(text.to_owned())),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,11 +74,11 @@ mod tests {
     #[test]
     fn every_curve_begins_at_black_rises_and_keeps_grey_grey() {
         for tone in TONES {
-            assert_eq!(tone.shown([0.0; 3], 12.0), [0.0; 3]);
+            assert_eq!(toned(tone, [0.0; 3], 12.0), [0.0; 3]);
             let mut before = 0.0;
             for k in 0..=4000 {
                 let light = 1e-4 * (f32::from(k as u16) * 0.005).exp();
-                let [r, g, b] = tone.shown([light; 3], 12.0);
+                let [r, g, b] = toned(tone, [light; 3], 12.0);
                 assert!(r == g && g == b, "{tone:?} colours grey {light}");
                 // The tolerance is two roundings, as the curves nearly touch 1 for a long stretch.
                 assert!(r >= before - 2.5e-7 && r <= 1.0, "{tone:?} falls at {light}: {before} to {r}");
@@ -118,19 +90,19 @@ mod tests {
 
     #[test]
     fn neutral_leaves_what_a_screen_can_show_and_the_hue() {
-        assert_eq!(Tone::Neutral.shown([0.79, 0.3, 0.0], 1.0), [0.79, 0.3, 0.0]);
-        let [r, g, b] = Tone::Neutral.shown([4.0, 2.0, 1.0], 1.0);
+        assert_eq!(toned(Tone::Neutral, [0.79, 0.3, 0.0], 1.0), [0.79, 0.3, 0.0]);
+        let [r, g, b] = toned(Tone::Neutral, [4.0, 2.0, 1.0], 1.0);
         // The middle channel keeps its relative place between the two others.
         assert!(r < 1.0 && ((g - b) / (r - b) - 1.0 / 3.0).abs() < 1e-5);
-        let just = Tone::Neutral.shown([COMPRESSED_FROM; 3], 1.0)[0];
+        let just = toned(Tone::Neutral, [COMPRESSED_FROM; 3], 1.0)[0];
         assert!((just - COMPRESSED_FROM).abs() < 1e-6, "a step at {just}");
     }
 
     #[test]
     fn film_is_white_at_its_white_point() {
         for white in [1.0, 4.0, 12.0] {
-            assert!((Tone::Filmic.shown([white; 3], white)[0] - 1.0).abs() < 1e-5);
-            assert!(Tone::Filmic.shown([white * 0.9; 3], white)[0] < 0.999);
+            assert!((toned(Tone::Filmic, [white; 3], white)[0] - 1.0).abs() < 1e-5);
+            assert!(toned(Tone::Filmic, [white * 0.9; 3], white)[0] < 0.999);
         }
     }
 
@@ -144,11 +116,5 @@ mod tests {
         }
         assert_eq!(reachable([0.0, 0.5, 9.0]), [0.0, 0.5, 9.0]);
         assert_eq!(reachable([-1.0, 0.1, 0.0]), [0.0; 3]);
-    }
-
-    #[test]
-    fn tones_have_names() {
-        assert_eq!("filmic".parse(), Ok(Tone::Filmic));
-        assert!("Vivid".parse::<Tone>().unwrap_err().to_string().contains("neutral"));
     }
 }

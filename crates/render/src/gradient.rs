@@ -2,8 +2,9 @@
 
 use super::sweep::{Sweep, SweepError, SweptStone, VariedDesign, with_numbers};
 use super::sweep_key::SweepKey;
+use brillianteer_base::Unit;
 use brillianteer_base::Watch;
-use brillianteer_cut::{Cut, Design, ScaleError, ScaledSide, SideSlope, Unit};
+use brillianteer_cut::{Cut, Design, ScaleError, ScaledSide, SideSlope};
 use brillianteer_math::{Facet, Plane};
 use brillianteer_measure::{MeasureDerivatives, MeasureName};
 use brillianteer_scene::{Specimen, SpecimenError, Stone};

@@ -16,7 +16,7 @@ use brillianteer_measure::{Bounds, MeasureName, MeasureSettings};
 use brillianteer_optics::Strata;
 use brillianteer_picture::liquid_glass::GlassPane;
 use brillianteer_picture::{Backdrop, Linear, Survey, enlarged};
-use brillianteer_scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
+use brillianteer_scene::{Film, Glare, Medium, Panorama, Scene, Scope, USUAL_BOUNCES, View};
 use brillianteer_trace::beam::BeamOptions;
 use brillianteer_trace::ray::RayOptions;
 use brillianteer_trace::sampling::LitScene;
@@ -196,9 +196,6 @@ const UNRESOLVED_LIGHT: f64 = 2e-3;
 /// The default limit of beams of one wavelength. Without symmetry, reaching the bound of unresolved light would take
 /// many times as long as the rest of the work.
 const MOST_BEAMS: usize = 100_000;
-
-/// The default number of bounces inside a stone after which rays end.
-pub const USUAL_BOUNCES: u32 = 64;
 
 /// The default end of rays: after this many bounces, or where no more than this weight is left.
 const RAYS: RayOptions = RayOptions { polarised: true, most_bounces: USUAL_BOUNCES, least_weight: 5e-4 };

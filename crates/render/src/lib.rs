@@ -28,7 +28,7 @@ pub use check::{JobError, OutOfRange};
 pub use gradient::{GradedStone, LEAST_TIER_DEG, MeasureGradient, PlaneChanges};
 pub use job::{
     FiguresProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality, Reading,
-    ScopeProduct, Steps, USUAL_BOUNCES, mixture_note,
+    ScopeProduct, Steps, mixture_note,
 };
 pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};

@@ -2,10 +2,10 @@
 
 use super::card::{Backend, Card, NoCard};
 use super::check::JobError;
-use super::job::{Job, LightProduct, Product, Steps, USUAL_BOUNCES};
+use super::job::{Job, LightProduct, Product, Steps};
 use brillianteer_base::Failure;
 use brillianteer_math::{NotConvex, SolidRef};
-use brillianteer_scene::{Projection, View};
+use brillianteer_scene::{Projection, USUAL_BOUNCES, View};
 use brillianteer_trace::ray::Camera;
 use serde::{Deserialize, Serialize};
 

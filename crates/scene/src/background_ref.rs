@@ -5,11 +5,13 @@ use crate::background::Background;
 use crate::pattern::{PATTERN_SPAN, Pattern};
 use crate::worlds::World;
 use brillianteer_base::{FileError, NameOrFileError, nearest};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// A background by its name.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "String", into = "String")]
 pub enum BackgroundRef {
     /// `light`: the light itself.
     Light,
@@ -19,7 +21,7 @@ pub enum BackgroundRef {
     Pattern(Pattern),
     /// A world that the program draws.
     World(World),
-    /// The path of a photograph's file, which existed when the name was read.
+    /// The path of a photograph's file.
     Photo(PathBuf),
 }
 
@@ -36,6 +38,25 @@ impl fmt::Display for BackgroundRef {
     }
 }
 
+impl From<&str> for BackgroundRef {
+    /// Takes a text that is no other name for the path of a photograph, whether there is such a file or not.
+    fn from(text: &str) -> Self {
+        Self::read(text, Path::new("")).unwrap_or_else(|_| Self::Photo(text.into()))
+    }
+}
+
+impl From<String> for BackgroundRef {
+    fn from(text: String) -> Self {
+        text.as_str().into()
+    }
+}
+
+impl From<BackgroundRef> for String {
+    fn from(background: BackgroundRef) -> Self {
+        background.to_string()
+    }
+}
+
 impl BackgroundRef {
     /// Returns the names of all pictures that the program draws itself: worlds, then patterns.
     pub fn names() -> impl Iterator<Item = &'static str> {
@@ -45,6 +66,11 @@ impl BackgroundRef {
     /// Returns whether it is a picture that hangs at a distance behind the stones.
     pub fn is_picture(&self) -> bool {
         matches!(self, Self::Pattern(_) | Self::World(_) | Self::Photo(_))
+    }
+
+    /// Returns whether it is a photograph whose file does not exist.
+    pub fn is_missing(&self) -> bool {
+        matches!(self, Self::Photo(path) if !path.is_file())
     }
 
     /// Returns the width of the hanging picture as a multiple of the width of the film: patterns and worlds continue

@@ -15,6 +15,7 @@ mod instance;
 mod layout;
 mod light;
 mod lights;
+mod look;
 mod medium;
 mod metal_instance;
 mod mipmap;
@@ -25,8 +26,10 @@ mod panorama;
 mod pattern;
 mod scene_ring;
 mod scope;
+mod smoothing;
 mod specimen;
 mod stone;
+mod tone;
 mod view;
 mod viewpoint;
 mod worlds;
@@ -43,6 +46,10 @@ pub use instance::{Instance, MOST_STONES, Scene};
 pub use layout::{Layout, scattered};
 pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
 pub use lights::{LIGHTS, light};
+pub use look::{
+    BACKGROUND_DISTANCE, BOUNCES, EXPOSURE, GLOW, HEAD, HEADS_DEG, LIGHT_TURN, LOOK_NUMBERS, Look, STRENGTH,
+    USUAL_BOUNCES, USUAL_DISTANCE, USUAL_GLOW, USUAL_LIGHT, WAVELENGTHS,
+};
 pub use medium::Medium;
 pub use metal_instance::{MetalInstance, POLISHED};
 pub use mipmap::Mipmap;
@@ -58,8 +65,10 @@ pub use scene_ring::{RingMetal, RingPlan, RingPlanError, SceneRing};
 pub use scope::{
     ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, VIEWER_CONES_DEG, elevation_deg,
 };
+pub use smoothing::{Smoothing, SmoothingError};
 pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;
+pub use tone::{Tone, UnknownTone};
 pub use view::{Lean, Projection, Side, View};
 pub use viewpoint::Viewpoint;
 pub use worlds::World;

@@ -4,6 +4,7 @@
 //! the light's axis; 90 lies along the axis. Radiance 1 is that of a white sheet in full light. A part with a colour of its
 //! own sheds light in the smooth spectra of red, green and blue; one without sheds the light's spectrum.
 
+use super::look::HEADS_DEG;
 use super::worlds::World;
 use brillianteer_optics::Illuminant;
 use glam::DVec3;
@@ -227,7 +228,8 @@ impl Light {
         let angle = |key, value| (key, value, 0.5, 180.0, ANGLE);
         let radiance = |key, value| (key, value, 0.0, 1e6, RADIANCE);
         let finite = |key, value| (key, value, -1e6, 1e6, FINITE);
-        check("light", 0, &[("head", self.head, 0.0, 89.0, "give 0 to 89 degrees")])?;
+        let [least, most] = HEADS_DEG;
+        check("light", 0, &[("head", self.head, least, most, "give 0 to 89 degrees")])?;
         for (k, d) in self.dome.iter().enumerate() {
             let soft = ("soft", d.soft, 0.0, 180.0, WIDTH);
             let end = radiance("end", d.end.unwrap_or(0.0));

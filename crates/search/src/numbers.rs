@@ -2,7 +2,8 @@
 
 use super::appraisal::SearchError;
 use super::goal::Goal;
-use brillianteer_cut::{Cut, Design, MachineSetting, ScaledSide, Unit};
+use brillianteer_base::Unit;
+use brillianteer_cut::{Cut, Design, MachineSetting, ScaledSide};
 use brillianteer_math::Plane;
 use brillianteer_render::{SweepKey, with_numbers};
 

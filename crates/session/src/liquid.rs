@@ -1,5 +1,6 @@
 //! The pane of liquid glass over the background of a view: its stored settings and its place in a picture.
 
+use brillianteer_base::{NumberRow, Unit};
 use brillianteer_optics::linear_from_encoded;
 use brillianteer_picture::liquid_glass::{GlassPane, LightFrom, PaneQuality};
 use glam::{DVec2, DVec4};
@@ -75,6 +76,58 @@ impl Default for Liquid {
         }
     }
 }
+
+/// Makes a row of a number of the pane whose slider goes by whole steps.
+macro_rules! number {
+    ($key:literal, $name:literal, $unit:ident, $least:literal to $most:literal, $($field:ident).+, $meaning:literal) => {
+        NumberRow {
+            key: $key,
+            name: $name,
+            unit: Unit::$unit,
+            range: [$least, $most],
+            span: [$least, $most],
+            step: 1.0,
+            decimals: 0,
+            meaning: $meaning,
+            get: |liquid| Some(liquid.$($field).+),
+            set: |liquid, value| liquid.$($field).+ = value,
+        }
+    };
+}
+
+/// The numbers of the pane's shape and of its effects.
+pub const PANE_NUMBERS: [NumberRow<Liquid>; 8] = [
+    number!("width", "Pane width", Percent, 10.0 to 100.0, size.x, "The width of the pane, in percent of the view."),
+    number!("height", "Pane height", Percent, 10.0 to 100.0, size.y, "The height of the pane, in percent of the view."),
+    number!("corners", "Corners", Percent, 0.0 to 50.0, corners, "The radius of its corners, in percent of its shorter side."),
+    number!("refraction", "Refraction", Ratio, 0.0 to 100.0, refraction, "Bends the background at the rim. In the traced pane it is the index, 1 to 1.5."),
+    number!("depth", "Pane depth", Ratio, 0.0 to 100.0, depth, "The depth that the pane seems to have. In the traced pane it is the thickness."),
+    number!("dispersion", "Dispersion", Ratio, 0.0 to 100.0, dispersion, "Separates red from blue. In the traced pane it sets the Abbe number, 55 at 100."),
+    number!("frost", "Frost", Ratio, 0.0 to 100.0, frost, "Blurs the background toward the rim, unevenly. The traced pane is always clear."),
+    number!("light", "Pane light", Ratio, 0.0 to 100.0, light, "The strength of shine, shade and rim. Around the traced pane it is the brightness of a lamp and a sky."),
+];
+
+/// The numbers of the direction that a light which stays comes from.
+pub const PANE_LIGHT_NUMBERS: [NumberRow<Liquid>; 2] = [
+    number!(
+        "azimuth", "Light azimuth", Degrees, 0.0 to 360.0, light_from.azimuth,
+        "The direction of the light, in degrees counter-clockwise from the right; 90 is above."
+    ),
+    number!(
+        "elevation", "Light height", Degrees, 0.0 to 90.0, light_from.height,
+        "The height of the light over the pane, in degrees: 0 along it, 90 from the eye."
+    ),
+];
+
+/// The height of the traced pane above the background.
+pub const PANE_GAP: NumberRow<Liquid> = NumberRow {
+    step: 0.001,
+    decimals: 3,
+    ..number!(
+        "gap", "Gap", Ratio, 0.001 to 1.0, gap,
+        "The distance from the traced pane to the background, in parts of the pane's shorter side."
+    )
+};
 
 impl Liquid {
     /// Returns the pane in a picture of a size in pixels; the pane lies wholly within the picture.

@@ -1,6 +1,7 @@
 //! A picture as a screen shows it.
 
-use brillianteer_picture::{Develop, Linear, Tone, develop};
+use brillianteer_picture::{Develop, Linear, develop};
+use brillianteer_scene::Tone;
 
 /// A picture as a screen shows it, in sRGB codes; the cover is not multiplied into the colours.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -161,7 +161,7 @@ fn a_map_read_from_a_render_of_the_template_is_the_programs_own_map() {
     .unwrap();
     let view = "pill --material 1.5 --light dark.toml --size 80 --tilt 12 --perspective 6";
     desk.done(&format!(
-        "render {view} --background template.exr --samples 64 --wavelengths 1 --no-jitter --bloom 0 --unadapted \
+        "render {view} --background template.exr --samples 64 --wavelengths 1 --no-jitter --glow 0 --unadapted \
         --tracer ray --out render.exr"
     ));
     let to = "--span 1 --background photo.png --format exr,preview --out";

@@ -164,7 +164,7 @@ fn lines() -> Vec<String> {
             "completions bash",
             "man",
             "man render",
-            "render tolkowsky --bloom 0 --no-jitter --unpolarised --unadapted --size 48 --samples 3 --out {}/a.png",
+            "render tolkowsky --glow 0 --no-jitter --unpolarised --unadapted --size 48 --samples 3 --out {}/a.png",
         ]
         .map(String::from),
     );

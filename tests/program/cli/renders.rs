@@ -108,10 +108,10 @@ fn a_stone_of_colour_is_darker_the_larger_it_is_and_weighs_what_is_asked() {
 #[test]
 fn what_lies_behind_is_a_colour_nothing_or_a_photograph() {
     let desk = Desk::new();
-    let (pixels, _) = picture(&desk, "modern-ideal --background #336699 --bloom 0");
+    let (pixels, _) = picture(&desk, "modern-ideal --background #336699 --glow 0");
     let linear = |rgb: [u8; 3]| DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0)));
     assert_eq!(pixels[0], linear([0x33, 0x66, 0x99]));
-    desk.done("render modern-ideal --background #c08040 --bloom 0 --size 40 --samples 1 --wavelengths 2 --out behind.png");
+    desk.done("render modern-ideal --background #c08040 --glow 0 --size 40 --samples 1 --wavelengths 2 --out behind.png");
     let (photo, description) = picture(&desk, "cube.toml --background behind.png --light white");
     assert!(
         description.contains("rays") && (photo[0] - linear([0xc0, 0x80, 0x40])).length() < 0.01,
@@ -184,7 +184,7 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
         assert!(frames["0001.png"] != frames["0002.png"]);
         if motion == "turn" {
             // The stones turn, and not only the light: the drawn facets of dark frames differ.
-            desk.done("spin modern-ideal --frames 2 --size 32 --wavelengths 1 --samples 1 --exposure -40 --bloom 0 --overlay facets --out dark");
+            desk.done("spin modern-ideal --frames 2 --size 32 --wavelengths 1 --samples 1 --exposure -40 --glow 0 --overlay facets --out dark");
             let dark = files(&desk.at("dark/modern-ideal-exposure--40-bloom-0-overlay-facets-spin"));
             assert!(dark["0001.png"] != dark["0002.png"]);
         }
@@ -219,7 +219,7 @@ fn a_render_at_fault_is_refused_and_says_why() {
         ("render modern-ideal --size 100x9000", 2, "give 16 to 8192 pixels"),
         ("render modern-ideal --turn nan", 2, "--turn NaN"),
         ("render modern-ideal --head 90", 2, "--head 90: give 0 to 89"),
-        ("render modern-ideal --bloom 2", 2, "--bloom 2: give 0 to 1"),
+        ("render modern-ideal --glow 2", 2, "--glow 2: give 0 to 1"),
         ("render modern-ideal --overlay hair", 2, "wireframe"),
         ("render modern-ideal --strength 1.1", 2, "--strength 1.1: give 0 to 1"),
         ("render modern-ideal --out a.jpg", 2, ".jpg is not written"),
@@ -243,7 +243,7 @@ fn edges_are_smoothed_in_the_finished_picture_or_over_time() {
     let desk = Desk::new();
     // In a white world glass is white: before black its outline is all that there is to smooth.
     let taken = |options: &str| {
-        let scene = "prism --light white --background black --bloom 0 --tracer ray --wavelengths 3";
+        let scene = "prism --light white --background black --glow 0 --tracer ray --wavelengths 3";
         let line = format!("render {scene} --azimuth 20 --tilt 20 --size 96 {options} --out a.png");
         assert_eq!(desk.run(&line).0, 0, "{line}");
         let (_, pixels, description) = png(&desk.at("a.png"));

@@ -2,9 +2,10 @@
 //! length and lower halves. Girdle thickness and culet follow. `PLACE` is the place of the number in the table.
 
 use super::super::family::BoundAt::Fixed;
-use super::super::family::{Bound, Proportion, Unit};
+use super::super::family::{Bound, Proportion};
 use super::super::family_cut::number;
 use super::rows;
+use brillianteer_base::Unit;
 
 /// Returns the row for the angle of the bezels at the sides.
 pub const fn crown_angle<const PLACE: usize>(usual: [f64; 2]) -> Proportion {

@@ -5,7 +5,8 @@
 
 use super::range_sources::range_source;
 use super::tests::{Solid, made, on_random_cuts, stone};
-use crate::{Bound, BoundAt, Family, Proportion, ProportionReport, SheetFigures, Unit};
+use crate::{Bound, BoundAt, Family, Proportion, ProportionReport, SheetFigures};
+use brillianteer_base::Unit;
 use proptest::prelude::*;
 use std::fmt::Write;
 

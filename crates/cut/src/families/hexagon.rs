@@ -5,10 +5,11 @@
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
-use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::{FamilyCut, number};
 use super::steps::{self, StepProfile, StepRows, StepSide};
 use super::{rows, step_rows};
+use brillianteer_base::Unit;
 use glam::DVec2;
 
 const LENGTH: usize = 0;

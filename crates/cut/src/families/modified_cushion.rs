@@ -6,7 +6,7 @@
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
-use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::{FamilyCut, number};
 use super::super::shape::Cut;
 use super::brilliant::Brilliant;
@@ -14,6 +14,7 @@ use super::curves::around;
 use super::cushion_chevrons::CushionChevrons;
 use super::girdle::Girdle;
 use super::{brilliant_rows, cushion, rows};
+use brillianteer_base::Unit;
 use glam::DVec2;
 
 const LENGTH: usize = 0;

@@ -8,11 +8,12 @@
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
-use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::{FamilyCut, number};
 use super::chevrons::{Chevrons, StarCrown};
 use super::steps::{self, Rectangle};
 use super::{rows, step_rows};
+use brillianteer_base::Unit;
 
 const LENGTH: usize = 0;
 const CORNER: usize = 1;

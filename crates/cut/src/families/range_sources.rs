@@ -4,7 +4,8 @@
 //! published too. A range that is only near a published one says so. "Ours" means that no source publishes the range;
 //! the reason for it follows.
 
-use crate::{Family, Proportion, Unit};
+use crate::{Family, Proportion};
+use brillianteer_base::Unit;
 
 const GIRDLE: &str = "ours: from a very thin girdle to a thick one; no source gives percents";
 const CULET: &str = "ours: from a point to a culet that shows through the table";

@@ -2,8 +2,9 @@
 
 use super::super::Cut;
 use super::super::family::BoundAt::Fixed;
-use super::super::family::{Bound, Proportion, Unit};
+use super::super::family::{Bound, Proportion};
 use super::super::family_cut::number;
+use brillianteer_base::Unit;
 
 /// Returns the row for the ratio of the stone's length, along y, to its width, along x: 1 for a square or round outline, below
 /// 1 for one that is wider than long. What is measured on a stone as its length to width is never below 1.

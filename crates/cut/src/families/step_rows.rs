@@ -1,9 +1,10 @@
 //! Rows that the tables of step cuts and of chevron cuts have in common. `PLACE` is the place of the number in the table.
 
 use super::super::family::BoundAt::Fixed;
-use super::super::family::{Bound, Proportion, Unit};
+use super::super::family::{Bound, Proportion};
 use super::super::family_cut::number;
 use super::rows;
+use brillianteer_base::Unit;
 
 /// Returns a row for a number of rows, chevrons or styles, whose whole possible range is usual.
 pub const fn count<const PLACE: usize>(

@@ -2,7 +2,8 @@
 
 use super::super::outline::diameter;
 use super::*;
-use crate::{FamilySolid, ProportionError, Unit, tier_stem};
+use crate::{FamilySolid, ProportionError, tier_stem};
+use brillianteer_base::Unit;
 use brillianteer_math::{Calipers, Plane, Polytope, bounds, hull};
 use glam::DVec3;
 use proptest::prelude::*;

@@ -5,12 +5,13 @@
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
-use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::{FamilyCut, number};
 use super::super::shape::Cut;
 use super::brilliant::Brilliant;
 use super::girdle::{Girdle, GirdlePlace};
 use super::{brilliant_rows, rows};
+use brillianteer_base::Unit;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
 

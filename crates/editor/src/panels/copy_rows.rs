@@ -2,7 +2,7 @@
 //! can have them too.
 
 use crate::panels::rows::{ANY, ChoiceRow, NUMBER, Row, control_width, field_width, named, skip_name};
-use brillianteer_scene::{MOST_COPIES, Movement, has_wave};
+use brillianteer_scene::{MOST_COPIES, Movement, Smoothing, has_wave};
 use brillianteer_session::model::{
     Model,
     action::{Actions, Edit, FileAction, ViewAction},
@@ -11,11 +11,9 @@ use brillianteer_session::model::{
     document::Document,
     motion::Motion,
     preset::{Known, PRESETS},
-    render_settings::SettingChange,
     workspace::Workspace,
 };
 use brillianteer_session::shows::Shows;
-use brillianteer_session::studio::Smoothing;
 use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
 
@@ -45,7 +43,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         }
         scatter(count, actions, ui);
     }
-    smoothing(&model.document, actions, ui);
+    smoothing(model, actions, ui);
     view_angle(model, actions, ui);
 }
 
@@ -131,8 +129,9 @@ fn copies(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     actions.push_changed(&before, count.round().clamp(1.0, most) as usize, Edit::LayOut);
 }
 
-fn smoothing(document: &Document, actions: &mut Actions, ui: &mut Ui) {
-    let (before, first) = (document.work.settings.smoothing, document.first_settings().smoothing);
+fn smoothing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let document = &model.document;
+    let (before, first) = (document.work.settings.look.smoothing, document.first_settings().look.smoothing);
     let mut smoothing = before;
     let meaning = "How the edges of renders are smoothed while anything moves: not at all, in each picture (FXAA), or \
         over time (temporal). A still picture is smoothed by its many samples of each pixel.";
@@ -157,6 +156,6 @@ fn smoothing(document: &Document, actions: &mut Actions, ui: &mut Ui) {
         let row = Row { speed: 0.01, ..Row::new("Newest part", meaning, Smoothing::NEWEST) };
         row.by_default(Smoothing::USUAL_NEWEST).show(ui, newest);
     }
-    let set = |smoothing| Edit::Setting(SettingChange::Smoothing(smoothing));
+    let set = |smoothing| model.look_with(|look| look.smoothing = smoothing);
     actions.push_changed(&before, smoothing, set);
 }

@@ -4,7 +4,8 @@ use crate::panels::row_focus;
 use crate::panels::rows::{ANY, FilledRow, NOT_KNOWN, Row, explain, field_width, named, wrong};
 use crate::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::theme;
-use brillianteer_cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
+use brillianteer_base::Unit;
+use brillianteer_cut::{Cut, Design, DesignError, MaterialRef, Proportion, Warning};
 use brillianteer_math::fixed;
 use brillianteer_scene::{Copies, SpecimenError};
 use brillianteer_session::model::{

@@ -2,31 +2,15 @@
 
 use crate::panels::row_focus;
 use crate::panels::rows::{ChoiceRow, NUMBER, Row, control_width, explain, named_with_reset};
+use brillianteer_base::NumberRow;
 use brillianteer_picture::liquid_glass::PaneQuality;
-use brillianteer_session::liquid::{LightMotion, Liquid};
+use brillianteer_session::liquid::{LightMotion, Liquid, PANE_GAP, PANE_LIGHT_NUMBERS, PANE_NUMBERS};
 use brillianteer_session::model::{
     Model,
     action::{Actions, Edit},
-    render_settings::SettingChange,
 };
 use brillianteer_session::shows::Shows;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
-use std::ops::RangeInclusive;
-
-/// The range of the pane's width and height, percent of the view.
-const EXTENTS: RangeInclusive<f64> = 10.0..=100.0;
-/// The range of the corners' radius, percent of the pane's shorter side.
-const CORNERS: RangeInclusive<f64> = 0.0..=50.0;
-/// The range of the strengths.
-const STRENGTHS: RangeInclusive<f64> = 0.0..=100.0;
-
-/// The range of the gap between pane and background, in parts of the pane's shorter side.
-const GAPS: RangeInclusive<f64> = 0.001..=1.0;
-
-/// The range of the light's azimuth, degrees.
-const AZIMUTHS: RangeInclusive<f64> = 0.0..=360.0;
-/// The range of the light's height, degrees.
-const HEIGHTS: RangeInclusive<f64> = 0.0..=90.0;
 
 /// The drivers of the light: the name of each, and its meaning.
 const MOTIONS: [(LightMotion, &str, &str); 3] = [
@@ -58,13 +42,9 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let before = model.document.work.settings.liquid;
     let first = model.document.first_settings().liquid;
     let mut liquid = before;
-    shape_rows(&mut liquid, &first, ui);
+    PANE_NUMBERS.iter().for_each(|row| number(row, &mut liquid, &first, ui));
     if traced {
-        let meaning =
-            "The distance from the traced pane to the background, in parts of the pane's shorter side.";
-        let row = Row::new("Gap", meaning, GAPS);
-        let row = Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row };
-        row.by_default(first.gap).show(ui, &mut liquid.gap);
+        number(&PANE_GAP, &mut liquid, &first, ui);
     }
     light_rows(&mut liquid, &first, ui);
     if liquid.light_motion == LightMotion::Fixed && before.light_motion != LightMotion::Fixed {
@@ -72,63 +52,18 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         liquid.light_from = model.liquid().light_from;
     }
     tint_and_quality_rows(&mut liquid, &first, ui);
-    actions.push_changed(&before, liquid, |liquid| Edit::Setting(SettingChange::Liquid(Box::new(liquid))));
+    actions.push_changed(&before, liquid, |liquid| Edit::Liquid(Box::new(liquid)));
 }
 
-/// Draws the rows for the pane's size and the strengths of its effects.
-fn shape_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
-    let Liquid { size, corners, .. } = liquid;
-    let width = "The width of the pane, in percent of the view.";
-    let height = "The height of the pane, in percent of the view.";
-    let radius = "The radius of its corners, in percent of its shorter side.";
-    for (name, meaning, value, usual, range) in [
-        ("Pane width", width, &mut size.x, first.size.x, EXTENTS),
-        ("Pane height", height, &mut size.y, first.size.y, EXTENTS),
-        ("Corners", radius, corners, first.corners, CORNERS),
-    ] {
-        let row = Row { step: 1.0, decimals: 0, speed: 0.2, unit: " %", ..Row::new(name, meaning, range) };
-        row.by_default(usual).show(ui, value);
-    }
-    strength_rows(liquid, first, ui);
-}
-
-/// Draws the rows for how strongly the pane changes what is behind it.
-fn strength_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
-    let Liquid { refraction, depth, dispersion, frost, light, .. } = liquid;
-    for (name, meaning, value, usual) in [
-        (
-            "Refraction",
-            "Bends the background at the rim. In the traced pane it is the index, 1 to 1.5.",
-            refraction,
-            first.refraction,
-        ),
-        (
-            "Pane depth",
-            "The depth that the pane seems to have. In the traced pane it is the thickness.",
-            depth,
-            first.depth,
-        ),
-        (
-            "Dispersion",
-            "Separates red from blue. In the traced pane it sets the Abbe number, 55 at 100.",
-            dispersion,
-            first.dispersion,
-        ),
-        (
-            "Frost",
-            "Blurs the background toward the rim, unevenly. The traced pane is always clear.",
-            frost,
-            first.frost,
-        ),
-        (
-            "Pane light",
-            "The strength of shine, shade and rim. Around the traced pane it is the brightness of a lamp and a sky.",
-            light,
-            first.light,
-        ),
-    ] {
-        let row = Row { step: 1.0, decimals: 0, speed: 0.2, ..Row::new(name, meaning, STRENGTHS) };
-        row.by_default(usual).show(ui, value);
+/// Draws the row of a number of the pane.
+fn number(row: &'static NumberRow<Liquid>, liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
+    let (Some(before), default) = ((row.get)(liquid), (row.get)(first)) else { return };
+    let mut now = before;
+    let logarithmic = row.key == PANE_GAP.key;
+    let speed = if logarithmic { 0.002 } else { 0.2 };
+    Row { speed, logarithmic, default, ..Row::of(row) }.show(ui, &mut now);
+    if now != before {
+        (row.set)(liquid, now);
     }
 }
 
@@ -148,26 +83,7 @@ fn light_rows(liquid: &mut Liquid, first: &Liquid, ui: &mut Ui) {
     if liquid.light_motion != LightMotion::Fixed {
         return;
     }
-    let from = &mut liquid.light_from;
-    for (name, meaning, value, usual, range) in [
-        (
-            "Light azimuth",
-            "The direction of the light, in degrees counter-clockwise from the right; 90 is above.",
-            &mut from.azimuth,
-            first.light_from.azimuth,
-            AZIMUTHS,
-        ),
-        (
-            "Light height",
-            "The height of the light over the pane, in degrees: 0 along it, 90 from the eye.",
-            &mut from.height,
-            first.light_from.height,
-            HEIGHTS,
-        ),
-    ] {
-        let row = Row { step: 1.0, decimals: 0, speed: 0.5, unit: "°", ..Row::new(name, meaning, range) };
-        row.by_default(usual).show(ui, value);
-    }
+    PANE_LIGHT_NUMBERS.iter().for_each(|row| number(row, liquid, first, ui));
 }
 
 /// Draws the rows for tint and quality.

@@ -8,6 +8,7 @@ use super::row_default;
 pub use super::row_default::may_follow as may_be_reset;
 use super::row_focus;
 use crate::theme;
+use brillianteer_base::NumberRow;
 use brillianteer_math::fixed;
 use brillianteer_optics::{encoded_from_linear, linear_from_encoded};
 use brillianteer_session::model::action::{Action, Actions};
@@ -88,6 +89,15 @@ impl<'a> Row<'a> {
             logarithmic: false,
             default: None,
         }
+    }
+
+    /// Makes the row of a number that things of the type `T` have.
+    pub fn of<T>(row: &NumberRow<T>) -> Self {
+        let [least, most] = row.range;
+        let NumberRow { step, decimals, .. } = *row;
+        let unit = row.unit.suffix();
+        let whole = Self::new(row.name, row.meaning, row.span[0]..=row.span[1]);
+        Self { limits: least..=most, step, decimals, unit, ..whole }
     }
 
     /// Gives the row a default, which a double click sets.

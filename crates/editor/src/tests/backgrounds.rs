@@ -70,7 +70,7 @@ fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
     assert!(moved != first, "the background has moved");
     assert!(Arc::ptr_eq(&bench.map(0), &map) && bench.editor().model.workspace.eye.tilt() == 0.0);
     // Another background behind the same map.
-    bench.harness.state_mut().model.document.work.settings.background = Some("stripes".to_owned());
+    bench.harness.state_mut().model.document.work.settings.look.background = Some("stripes".into());
     bench.settle();
     let other = bench.picture(0);
     assert!(other != moved && Arc::ptr_eq(&bench.map(0), &map));
@@ -83,12 +83,12 @@ fn a_photograph_that_vanishes_is_named_over_the_render_and_removed_by_a_click() 
     let mut bench = Bench::new();
     bench.harness.state_mut().model.workspace.panes[0].shows = Shows::Render;
     let settings = &mut bench.harness.state_mut().model.document.work.settings;
-    (settings.background, settings.strength) = (Some("/nowhere/garden.jpg".to_owned()), 0.3);
+    (settings.look.background, settings.look.strength) = (Some("/nowhere/garden.jpg".into()), 0.3);
     assert_eq!(settings.strength(), 1.0);
     bench.harness.run_steps(4);
     bench.click("garden.jpg is missing ×");
     bench.harness.run_steps(4);
-    assert_eq!(bench.editor().model.document.work.settings.background, None);
+    assert_eq!(bench.editor().model.document.work.settings.look.background, None);
 }
 
 #[test]
@@ -268,7 +268,7 @@ fn a_world_that_is_being_drawn_is_shown_coarsely_at_once_and_the_status_line_say
     let workspace = Workspace { layout: PaneLayout::One, panes: [pane; 4], ..Workspace::default() };
     let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(700.0, 300.0));
     let settings = &mut bench.harness.state_mut().model.document.work.settings;
-    (settings.wavelengths, settings.background) = (3, Some("sunset".to_owned()));
+    (settings.look.wavelengths, settings.look.background) = (3, Some("sunset".into()));
     bench.harness.run_steps(2);
     assert!(bench.harness.query_by_label_contains("done ·").is_none(), "an order is on its way");
     bench.wait(|editor| editor.studio.preparing().is_some());
@@ -288,7 +288,8 @@ fn a_light_that_is_being_drawn_is_shown_coarsely_at_once_and_nothing_fine_is_mad
     let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(700.0, 300.0));
     // The light is loaded by this test, so that each state lasts until it has been seen.
     let model = &mut bench.harness.state_mut().model;
-    (model.document.work.settings.wavelengths, model.document.work.settings.light) = (3, "sunset".to_owned());
+    (model.document.work.settings.look.wavelengths, model.document.work.settings.look.light) =
+        (3, "sunset".to_owned());
     model.session.light.loading = Some("sunset".to_owned());
     let come = |bench: &mut Bench, light: &ShotLight| {
         let answer = Computed::Light("sunset".to_owned(), Ok(light.clone()));

@@ -6,6 +6,7 @@ use crate::editor::Editor;
 use crate::setup::Setup;
 use brillianteer_render::{Quality, Steps};
 use brillianteer_scene::{Copies, Mipmap, Panorama, Pose};
+use brillianteer_scene::{Look, Smoothing};
 use brillianteer_session::model::{
     action::{Edit, FileAction},
     dialog::{Dialog, Then},
@@ -16,7 +17,7 @@ use brillianteer_session::model::{
     workspace::{PaneLayout, Workspace},
 };
 use brillianteer_session::shows::Shows;
-use brillianteer_session::studio::{Smoothing, Which, hung};
+use brillianteer_session::studio::{Which, hung};
 use brillianteer_session::tasks::export_scene::SceneOut;
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
@@ -68,8 +69,8 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     bench.click("Subtle pill");
     let settings = &bench.editor().model.document.work.settings;
     assert_eq!(
-        (settings.background.as_deref(), settings.background_mm, settings.strength),
-        (Some("page"), Some(35.0), 0.035)
+        (settings.look.background.clone(), settings.look.background_mm, settings.look.strength),
+        (Some("page".into()), Some(35.0), 0.035)
     );
     let before = poses(bench.editor());
     let (lean, middle) = (bench.editor().model.workspace.eye.lean, before[2].at);
@@ -102,7 +103,8 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
 fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     let mut bench = bench("rotating-cube");
     assert!(bench.editor().model.session.motion.is_on);
-    bench.harness.state_mut().model.document.work.settings.smoothing = Smoothing::Temporal { newest: 0.5 };
+    bench.harness.state_mut().model.document.work.settings.look.smoothing =
+        Smoothing::Temporal { newest: 0.5 };
     let pictures = |bench: &Bench| {
         let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
         (shown.shot.copies.clone(), shown.taken.image.clone())
@@ -184,7 +186,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         let mut bench = bench(scene);
         bench.harness.state_mut().model.session.motion = Motion::at(seconds);
         bench.harness.state_mut().model.workspace.eye.turn = turn;
-        bench.harness.state_mut().model.document.work.settings.background.get_or_insert("page".to_owned());
+        bench.harness.state_mut().model.document.work.settings.look.background.get_or_insert("page".into());
         bench.harness.state_mut().model.workspace.panes[0].is_near = scene == "wavy-plate";
         if scene == "plate" {
             bench.harness.state_mut().model.document.work.copies.poses.truncate(1);
@@ -201,12 +203,14 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         let shot = &plan.shot;
         let is_alone = scene == "modern-ideal";
         assert_eq!(again.scene.stones.len(), if ["plate", "modern-ideal"].contains(&scene) { 1 } else { 4 });
-        assert_eq!((&again.scene.background, again.scene.strength), (&shot.behind, shot.strength));
+        let kept =
+            |look: &Look| (look.background.clone(), look.strength, look.exposure, look.glow, look.bounces);
+        assert_eq!(kept(&again.scene.look), kept(&shot.look));
         assert!(again.design == if is_alone { &plan.upright } else { &shot.specimen }.design);
         assert_eq!(again.scene.angle_of_view.is_some(), scene == "wavy-plate");
         let unit_mm = shot.specimen.unit_mm();
         // The background is as far from each stone as before.
-        let farther = again.scene.background_distance_mm.unwrap() / unit_mm - hung(shot);
+        let farther = again.scene.look.background_mm.unwrap() / unit_mm - hung(shot);
         let deeper = again.copies.poses[0].at.z - shot.copies[0].at.z;
         assert!((farther + deeper).abs() < 1e-9, "{scene}: {farther} {deeper}");
         assert_eq!(shot.view.turn, glam::DQuat::from_rotation_z(turn));
@@ -222,7 +226,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
 fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     let sight = |bench: &Bench| {
         let Workspace { panes, distance, eye, .. } = &bench.editor().model.workspace;
-        (panes[0].is_near, *distance, bench.editor().model.document.work.settings.smoothing, *eye)
+        (panes[0].is_near, *distance, bench.editor().model.document.work.settings.look.smoothing, *eye)
     };
     let text =
         "format = 1\nname = \"Near\"\nangle_of_view = 45\nexposure = 0.5\nstone = [{ cut = \"cube\" }]";
@@ -234,13 +238,13 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     let (is_near, distance, smoothing, eye) = sight(&bench);
     assert!(is_near && (distance * 22.5_f64.to_radians().tan() / reach - 1.0).abs() < 1e-9, "{distance}");
     assert_eq!((smoothing, eye), (Smoothing::None, Eye::default()));
-    assert_eq!(bench.editor().model.document.work.settings.exposure, 0.5);
+    assert_eq!(bench.editor().model.document.work.settings.look.exposure, 0.5);
     // The next preset has its own, and a design has the program's.
     let light = |bench: &Bench| {
         let settings = &bench.editor().model.document.work.settings;
-        (settings.light.clone(), settings.exposure, settings.bounces)
+        (settings.look.light.clone(), settings.look.exposure, settings.look.bounces)
     };
-    bench.harness.state_mut().model.document.work.settings.bounces = 3;
+    bench.harness.state_mut().model.document.work.settings.look.bounces = 3;
     bench.harness.state_mut().act(FileAction::Ask(Then::Preset("free-diamond".to_owned())));
     bench.harness.run_steps(3);
     assert_eq!(light(&bench), ("city".to_owned(), 1.5, 64));
@@ -308,7 +312,7 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
         let page = Arc::new(Mipmap::new(page));
         let job = shot.light_job(Some(page), 1, Steps::Strips, Quality::of_pictures(true));
         let width = job.lit().unwrap().environment.backplate.unwrap().width;
-        (width, shot.film.pixel, shot.strength)
+        (width, shot.film.pixel, shot.look.strength)
     };
     let before = seen(&bench);
     bench.harness.state_mut().model.workspace.eye.zoom_at(4.0, glam::DVec2::new(0.8, 0.3));
@@ -324,7 +328,7 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
 fn a_preset_after_a_drag_asks_nothing_and_undo_brings_back_what_was_there() {
     let mut bench = bench("rotating-cube");
     bench.harness.state_mut().model.session.motion.rest();
-    let strength = |bench: &Bench| bench.editor().model.document.work.settings.strength;
+    let strength = |bench: &Bench| bench.editor().model.document.work.settings.look.strength;
     bench.click("Prism rainbow");
     bench.click("Scatter");
     bench.type_number("Glow", "0.35");
@@ -332,7 +336,7 @@ fn a_preset_after_a_drag_asks_nothing_and_undo_brings_back_what_was_there() {
     let before = bench.editor().model.document.work.clone();
     bench.click("Subtle pill");
     assert!(bench.editor().model.session.dialog.is_none() && strength(&bench) == 0.035);
-    assert_ne!(bench.editor().model.document.work.settings.glow, 0.35, "a preset brings its own");
+    assert_ne!(bench.editor().model.document.work.settings.look.glow, 0.35, "a preset brings its own");
     assert!(!bench.editor().model.document.is_changed() && !bench.editor().model.document.has_moved_copies());
     let undo = |bench: &mut Bench, modifiers| {
         bench.harness.key_press_modifiers(egui::Modifiers::COMMAND | modifiers, Key::Z);
@@ -344,7 +348,7 @@ fn a_preset_after_a_drag_asks_nothing_and_undo_brings_back_what_was_there() {
     undo(&mut bench, egui::Modifiers::SHIFT);
     assert_eq!(strength(&bench), 0.035);
     (0..2).for_each(|_| undo(&mut bench, egui::Modifiers::NONE));
-    assert_eq!(bench.editor().model.document.work.settings.glow, 0.35, "the steps before are there too");
+    assert_eq!(bench.editor().model.document.work.settings.look.glow, 0.35, "the steps before are there too");
     // A file would be lost with the places of the copies.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("other.toml");

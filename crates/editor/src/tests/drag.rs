@@ -23,7 +23,7 @@ fn drag_of(cut: Option<&str>, name: &str, shows_map: bool, mut change: impl FnMu
     let workspace = Workspace { shows_map, ..Workspace::default() };
     let setup = Setup { workspace, file, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
-    bench.harness.state_mut().model.document.work.settings.head = 1e-9;
+    bench.harness.state_mut().model.document.work.settings.look.head = Some(1e-9);
     bench.settle();
     let begun = Instant::now();
     let (mut frames, mut seen) = (vec![], [0_u32; 3]);

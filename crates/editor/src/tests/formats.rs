@@ -208,12 +208,12 @@ fn a_pattern_hangs_behind_glass_and_is_refracted_as_strongly_as_asked() {
     bench.leave_one();
     bench.look();
     let plain = bench.picture(0);
-    bench.harness.state_mut().model.document.work.settings.background = Some("grid".into());
+    bench.harness.state_mut().model.document.work.settings.look.background = Some("grid".into());
     bench.look();
     let refracted = bench.picture(0);
     assert!(refracted != plain);
     assert!(bench.harness.query_by_role_and_label(egui::Role::SpinButton, "Strength").is_some());
-    bench.harness.state_mut().model.document.work.settings.strength = 0.1;
+    bench.harness.state_mut().model.document.work.settings.look.strength = 0.1;
     bench.look();
     assert!(bench.picture(0) != refracted);
 }

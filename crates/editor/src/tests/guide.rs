@@ -116,7 +116,7 @@ fn what_lies_behind() {
     let mut bench = window("cube.toml", &Workspace::default());
     bench.leave_one();
     let model = &mut bench.harness.state_mut().model;
-    model.document.work.settings.background = Some("page".into());
+    model.document.work.settings.look.background = Some("page".into());
     model.workspace.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
     draw(&mut bench, "backgrounds");
 }

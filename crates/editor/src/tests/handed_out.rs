@@ -6,7 +6,7 @@ use brillianteer_cut::Design;
 use brillianteer_files::cut_file;
 use brillianteer_files::design_file::{self, DesignFormat};
 use brillianteer_paper::write_rgba_png;
-use brillianteer_scene::Specimen;
+use brillianteer_scene::{BackgroundRef, Specimen};
 use brillianteer_session::model::{dialog::Dialog, document::Document};
 use egui::OutputCommand;
 use egui_kittest::kittest::NodeT;
@@ -225,8 +225,8 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     bench.wait(|editor| matches!(editor.model.document.work.design.cut, Cut::Planes(_)));
     drop_on(&mut bench, &[&at("photo.png")]);
     assert_eq!(
-        bench.editor().model.document.work.settings.background,
-        Some(at("photo.png").display().to_string())
+        bench.editor().model.document.work.settings.look.background,
+        Some(BackgroundRef::Photo(at("photo.png")))
     );
     for light in ["lamp.toml", "sky.hdr"] {
         drop_on(&mut bench, &[&at(light)]);

@@ -237,7 +237,7 @@ fn the_fields_of_a_panel_stand_in_one_column() {
         let setup = Setup { file: file.clone(), workspace: Bench::small(), ..Setup::default() };
         let mut bench = Bench::sized(setup, vec2(1200.0, 900.0));
         bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
-        bench.harness.state_mut().model.document.work.settings.background = Some("grid".into());
+        bench.harness.state_mut().model.document.work.settings.look.background = Some("grid".into());
         bench.harness.run_steps(3);
         let numbers = fields(&bench, Role::SpinButton);
         let numbers: Vec<_> = numbers.into_iter().filter(|(name, _)| !name.contains("Angle")).collect();
@@ -273,7 +273,7 @@ fn nothing_is_red_while_nothing_is_wrong() {
     bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
     bench.leave_one();
     let settings = &mut bench.harness.state_mut().model.document.work.settings;
-    (settings.background, settings.strength) = (Some("grid".into()), 0.5);
+    (settings.look.background, settings.look.strength) = (Some("grid".into()), 0.5);
     bench.look();
     bench.harness.state_mut().model.session.notes.warn("it was saved, but not all of it".into());
     let editor = bench.harness.state_mut();

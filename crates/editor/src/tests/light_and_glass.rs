@@ -8,12 +8,13 @@ use brillianteer_files::cut_file;
 use brillianteer_math::Basis;
 use brillianteer_optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use brillianteer_picture::Bloom;
+use brillianteer_scene::Smoothing;
 use brillianteer_scene::{LIGHTS, Light, light};
 use brillianteer_session::model::{
     render_settings::RenderSettings,
     workspace::{PaneLayout, Workspace},
 };
-use brillianteer_session::studio::{Shot, Smoothing};
+use brillianteer_session::studio::Shot;
 use brillianteer_trace::environment::{Environment, EnvironmentMap};
 use egui::{
     Color32, ColorImage, Context, FullOutput, ImageData, Key, Modifiers, Rect, Role, Shape, TextureId,
@@ -53,24 +54,27 @@ fn rows_of_light_change_what_renders_are_ordered_to_show() {
     bench.type_number("Most bounces", "4");
     bench.type_number("Glow", "0.4");
     bench.type_number("Distance", "80");
-    assert_eq!((shot(&bench).light_turn, shot(&bench).bounces, shot(&bench).glow), (35.0, 4, 0.4));
-    assert_eq!(settings(&bench).background_mm, Some(80.0));
+    assert_eq!(
+        (shot(&bench).look.light_turn, shot(&bench).look.bounces, shot(&bench).look.glow),
+        (35.0, 4, 0.4)
+    );
+    assert_eq!(settings(&bench).look.background_mm, Some(80.0));
     let near = shot(&bench).view.projection;
     bench.type_number("View angle", "30");
     assert_ne!(shot(&bench).view.projection, near);
     pick(&mut bench, "Light axis", "up");
-    assert!(shot(&bench).light_upright);
+    assert!(shot(&bench).look.light_upright);
     bench.type_number("Exposure", "1.5");
     bench.type_number("Strength", "0.5");
-    assert_eq!((shot(&bench).exposure, shot(&bench).strength), (1.5, 0.5));
+    assert_eq!((shot(&bench).look.exposure, shot(&bench).look.strength), (1.5, 0.5));
     pick(&mut bench, "Wavelengths", "32");
-    assert_eq!((settings(&bench).wavelengths, shot(&bench).bands), (32, 32));
+    assert_eq!((settings(&bench).look.wavelengths, shot(&bench).look.wavelengths), (32, 32));
     pick(&mut bench, "Background", "city");
-    assert_eq!(shot(&bench).behind.as_ref().map(ToString::to_string), Some("city".to_owned()));
+    assert_eq!(shot(&bench).look.background.as_ref().map(ToString::to_string), Some("city".to_owned()));
     pick(&mut bench, "Smoothing", "temporal");
     bench.type_number("Newest part", "0.25");
-    assert_eq!(shot(&bench).smoothing, Smoothing::Temporal { newest: 0.25 });
-    assert_eq!(RenderSettings::default().glow, Bloom::default().strength);
+    assert_eq!(shot(&bench).look.smoothing, Smoothing::Temporal { newest: 0.25 });
+    assert_eq!(RenderSettings::default().look.glow, Bloom::default().strength);
 }
 
 #[test]
@@ -293,11 +297,11 @@ fn every_light_in_the_list_has_a_picture_in_the_mean_colour_of_its_own_light() {
 #[test]
 fn another_light_is_drawn_at_random_and_undone() {
     let mut bench = bench("subtle-pill");
-    let before = bench.editor().model.document.work.settings.light.clone();
+    let before = bench.editor().model.document.work.settings.look.light.clone();
     let mut seen = vec![before.clone()];
     for _ in 0..4 {
         pick(&mut bench, "Light", "Another at random");
-        let now = bench.editor().model.document.work.settings.light.clone();
+        let now = bench.editor().model.document.work.settings.look.light.clone();
         assert!(LIGHTS.contains(&now.as_str()) && Some(&now) != seen.last(), "{now} after {seen:?}");
         seen.push(now);
     }
@@ -305,11 +309,11 @@ fn another_light_is_drawn_at_random_and_undone() {
         bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
         bench.harness.run_steps(3);
     }
-    assert_eq!(bench.editor().model.document.work.settings.light, before);
+    assert_eq!(bench.editor().model.document.work.settings.look.light, before);
     bench.choose("View", "Another light");
-    assert_ne!(bench.editor().model.document.work.settings.light, before);
+    assert_ne!(bench.editor().model.document.work.settings.look.light, before);
     pick(&mut bench, "Light", "office");
-    assert_eq!(bench.editor().model.document.work.settings.light, "office");
+    assert_eq!(bench.editor().model.document.work.settings.look.light, "office");
 }
 
 #[test]

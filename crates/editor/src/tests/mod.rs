@@ -91,6 +91,12 @@ pub fn single_shapes(shape: &egui::Shape) -> Vec<egui::Shape> {
 }
 
 impl Bench {
+    /// Changes what renders are made with, as a step of undo.
+    fn change_look(&mut self, change: impl FnOnce(&mut brillianteer_scene::Look)) {
+        let edit = self.editor().model.look_with(change);
+        self.harness.state_mut().act(edit);
+    }
+
     /// Opens an editor without a file, a graphics card or an autosave.
     pub fn new() -> Self {
         Self::with(Setup::default())

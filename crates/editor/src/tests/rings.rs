@@ -142,14 +142,14 @@ fn another_metal_and_roughness_are_drawn_undone_saved_and_there_again() {
     assert_eq!(ring(&again).ring, ring(bench_).ring);
     assert!(ring(&again).ring.style == RingStyle::FourProng && is_fitted(&again.editor().model));
     let (now, before) = (shot(&again), shot(bench_));
-    assert_eq!((now.exposure, now.light_turn), (before.exposure, before.light_turn));
+    assert_eq!((now.look.exposure, now.look.light_turn), (before.look.exposure, before.look.light_turn));
     let distance = |shot: &Shot| match shot.view.projection {
         Projection::Perspective { distance } => distance,
         other => panic!("{other:?} is no perspective"),
     };
     assert!((distance(now) / distance(before) - 1.0).abs() < 1e-9);
     let colours = "#3a2f2a-#120e0c";
-    let behind = |shot: &Shot| shot.behind.as_ref().map(ToString::to_string);
+    let behind = |shot: &Shot| shot.look.background.as_ref().map(ToString::to_string);
     assert_eq!((behind(now).as_deref(), behind(before).as_deref()), (Some(colours), Some(colours)));
     assert_eq!(work(&again).design, work(bench_).design);
     assert!(work(&again).copies.poses[0].at.distance(work(bench_).copies.poses[0].at) < 1e-9);
@@ -301,7 +301,7 @@ fn metal_of_a_ring_that_was_recovered_is_made_anew() {
 #[test]
 fn colours_of_a_plain_background_are_picked() {
     let mut bench = bench("subtle-pill");
-    let behind = |bench: &Bench| shot(bench).behind.as_ref().map(ToString::to_string);
+    let behind = |bench: &Bench| shot(bench).look.background.as_ref().map(ToString::to_string);
     pick(&mut bench, "Background", "two colours");
     bench.pick_colour("Upper colour", [200, 40, 10]);
     bench.pick_colour("Lower colour", [5, 60, 120]);

@@ -2,15 +2,15 @@
 
 use super::light_and_glass::pick;
 use super::*;
+use brillianteer_scene::{LOOK_NUMBERS, Look, Smoothing, Tone};
 use brillianteer_session::model::{
     action::{Edit, FileAction, ViewAction},
     command::Command,
     dialog::Then,
-    render_settings::{RenderSettings, SettingChange},
+    render_settings::RenderSettings,
     update,
     work::Work,
 };
-use brillianteer_session::studio::Smoothing;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 
 /// Returns the names of all fields for numbers in sight, and the value of each.
@@ -89,7 +89,7 @@ fn assert_rows(bench: &mut Bench) -> usize {
 #[test]
 fn each_number_of_a_cut_and_of_its_light_is_undone_and_reset() {
     let mut bench = Bench::sized(Setup::default(), egui::vec2(1200.0, 900.0));
-    bench.harness.state_mut().act(Edit::Setting(SettingChange::Background(Some("page".into()))));
+    bench.change_look(|look| look.background = Some("page".into()));
     bench.harness.state_mut().act(ViewAction::Show(0, Shows::LiquidGlass));
     bench.harness.run_steps(3);
     let count = assert_rows(&mut bench);
@@ -110,11 +110,11 @@ fn each_number_of_a_scene_of_glass_is_undone_and_reset_to_that_of_its_preset() {
     bench.click("Reset light");
     let first = bench.editor().model.document.first_settings().clone();
     assert_eq!(
-        (work(&bench).settings, first.strength, first.background.as_deref()),
-        (first.clone(), 0.035, Some("page"))
+        (work(&bench).settings, first.look.strength, first.look.background.clone()),
+        (first.clone(), 0.035, Some("page".into()))
     );
     undo(&mut bench);
-    assert_eq!(work(&bench).settings.background.as_deref(), Some("city"));
+    assert_eq!(work(&bench).settings.look.background, Some("city".into()));
 }
 
 #[test]
@@ -154,58 +154,72 @@ fn a_double_click_on_a_slider_is_one_step() {
     bench.harness.run_steps(SCROLLED);
     let rect = bench.field(Role::Slider, "Exposure").rect();
     double_click(&mut bench, rect.left_center() + egui::vec2(12.0, 0.0));
-    assert_eq!(work(&bench).settings.exposure, 0.0);
+    assert_eq!(work(&bench).settings.look.exposure, 0.0);
     undo(&mut bench);
     assert!(work(&bench) == before, "the first click is no step of its own");
 }
 
-/// Every change of a setting that a picture is made with.
-fn changes() -> Vec<SettingChange> {
+/// Every change of a setting that a picture is made with: each number of a look by its row, and each of the rest.
+fn changes() -> Vec<RenderSettings> {
+    let usual = RenderSettings::default();
+    let of_look = |look: Look| RenderSettings { look, ..usual.clone() };
+    let number = |row: &&'static brillianteer_base::NumberRow<Look>| {
+        let mut look = usual.look.clone();
+        let [least, most] = row.span;
+        let now = (row.get)(&look);
+        (row.set)(&mut look, if now == Some(most) { least } else { most });
+        of_look(look)
+    };
+    let other = |change: fn(&mut Look)| {
+        let mut look = usual.look.clone();
+        change(&mut look);
+        of_look(look)
+    };
+    let rest: [fn(&mut Look); 5] = [
+        |look| look.light = "office".into(),
+        |look| look.light_upright = true,
+        |look| look.tone = Tone::Filmic,
+        |look| look.background = Some("grid".into()),
+        |look| look.smoothing = Smoothing::Fxaa,
+    ];
     let liquid = brillianteer_session::liquid::Liquid { frost: 40.0, ..Default::default() };
-    vec![
-        SettingChange::Light("office".into()),
-        SettingChange::LightTurn(30.0),
-        SettingChange::LightUpright(true),
-        SettingChange::Exposure(1.0),
-        SettingChange::Wavelengths(64),
-        SettingChange::Glow(0.9),
-        SettingChange::Bounces(3),
-        SettingChange::Background(Some("grid".into())),
-        SettingChange::BackgroundMm(Some(77.0)),
-        SettingChange::Strength(0.5),
-        SettingChange::Smoothing(Smoothing::Fxaa),
-        SettingChange::Head(12.0),
-        SettingChange::Liquid(Box::new(liquid)),
-    ]
+    let liquid = RenderSettings { liquid, ..usual.clone() };
+    LOOK_NUMBERS.iter().map(number).chain(rest.map(other)).chain([liquid]).collect()
+}
+
+/// Changes the settings of a model to these.
+fn set(model: &mut Model, settings: &RenderSettings) {
+    let RenderSettings { look, liquid } = settings.clone();
+    if look != model.document.work.settings.look {
+        update(model, Edit::Look(Box::new(look)).into());
+    }
+    if liquid != model.document.work.settings.liquid {
+        update(model, Edit::Liquid(Box::new(liquid)).into());
+    }
 }
 
 #[test]
 fn each_setting_is_a_step_of_undo_and_outlives_no_document() {
-    let kinds: std::collections::HashSet<_> = changes().iter().map(std::mem::discriminant).collect();
-    assert_eq!(kinds.len(), changes().len());
-    for change in changes() {
+    for changed in changes() {
         let mut model = Model::new(Workspace::default()).unwrap();
         let first = model.document.work.clone();
-        update(&mut model, Edit::Setting(change.clone()).into());
-        let changed = model.document.work.settings.clone();
-        assert_ne!(changed, first.settings, "{change:?}");
+        assert_ne!(changed, first.settings);
+        set(&mut model, &changed);
+        assert_eq!(model.document.work.settings, changed);
         update(&mut model, Command::Undo.into());
-        assert_eq!(model.document.work, first, "{change:?}");
+        assert_eq!(model.document.work, first, "{changed:?}");
         update(&mut model, Command::Redo.into());
-        assert_eq!(model.document.work.settings, changed, "{change:?}");
+        assert_eq!(model.document.work.settings, changed);
         update(&mut model, Command::ResetLight.into());
-        let is_light = !matches!(change, SettingChange::Smoothing(_) | SettingChange::Liquid(_));
-        assert_eq!(model.document.work.settings == first.settings, is_light, "{change:?}");
+        let is_light = changed.liquid == first.settings.liquid && changed.look.smoothing == Smoothing::None;
+        assert_eq!(model.document.work.settings == first.settings, is_light, "{changed:?}");
         for next in ["modern-ideal", "subtle-pill"] {
             let is_scene = next == "subtle-pill";
             let then = if is_scene { Then::Preset(next.to_owned()) } else { Then::Library(next.to_owned()) };
-            update(&mut model, Edit::Setting(change.clone()).into());
+            set(&mut model, &changed);
             update(&mut model, FileAction::Ask(then).into());
-            assert_eq!(
-                model.document.work.settings,
-                *model.document.first_settings(),
-                "{change:?} in {next}"
-            );
+            let first = model.document.first_settings();
+            assert_eq!(model.document.work.settings, *first, "{changed:?} in {next}");
         }
     }
     assert_eq!(

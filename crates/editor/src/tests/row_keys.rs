@@ -100,7 +100,7 @@ fn a_number_typed_over_a_slider_goes_to_its_field_and_no_key_of_the_view_acts() 
         focus(&mut bench, Role::Slider, "Exposure");
         type_text(&mut bench, begin);
         press(&mut bench, Modifiers::NONE, Key::Enter);
-        let exposure = bench.editor().model.document.work.settings.exposure;
+        let exposure = bench.editor().model.document.work.settings.look.exposure;
         assert!((exposure - expected).abs() < 1e-9, "{begin}: {exposure}");
     }
     focus(&mut bench, Role::Slider, "Exposure");

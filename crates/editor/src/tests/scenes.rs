@@ -11,7 +11,6 @@ use brillianteer_session::model::{
     plan::export_plan,
     preset::Preset,
     recovery::KeptCompanions,
-    render_settings::SettingChange,
     update,
     work::Work,
     workspace::Workspace,
@@ -119,7 +118,8 @@ fn each_document_has_the_light_and_the_views_of_its_own_and_undo_brings_them_bac
     for scene in ["halo-ring", "rotating-cube"] {
         let mut model = Model::new(Workspace::default()).unwrap();
         let first = state(&model);
-        update(&mut model, Edit::Setting(SettingChange::Light("ring".to_owned())).into());
+        let edit = model.look_with(|look| look.light = "ring".to_owned());
+        update(&mut model, edit.into());
         update(&mut model, ViewAction::Show(0, Shows::LiquidGlass).into());
         let before = (state(&model), model.document.work.design.clone());
         open(&mut model, Then::Preset(scene.to_owned()));
@@ -160,11 +160,15 @@ fn a_scene_and_a_shape_of_glass_begin_the_same_way_however_they_are_opened() {
         let ((shot, count), (other, _)) = (seen(bench), seen(first));
         assert_eq!((count, shot.shows), (1, Shows::Render), "{how}: a render is alone");
         assert_eq!(
-            (shot.behind, shot.strength, shot.exposure),
-            (other.behind, other.strength, other.exposure),
+            (shot.look.background, shot.look.strength, shot.look.exposure),
+            (other.look.background, other.look.strength, other.look.exposure),
             "{how}"
         );
-        assert_eq!((shot.bands, shot.view.projection), (other.bands, other.view.projection), "{how}");
+        assert_eq!(
+            (shot.look.wavelengths, shot.view.projection),
+            (other.look.wavelengths, other.view.projection),
+            "{how}"
+        );
         assert_eq!(shot.copies.len(), other.copies.len(), "{how}");
         let is_moving = |bench: &Bench| bench.editor().model.session.motion.is_on;
         assert_eq!(is_moving(bench), is_moving(first), "{how}");
@@ -217,7 +221,7 @@ fn scenes_glass_and_moved_copies_are_there_again_at_the_next_start() {
         if scene != "trilogy" {
             bench.harness.state_mut().act(Edit::LayOut(3));
         }
-        bench.harness.state_mut().act(Edit::Setting(SettingChange::Glow(0.3)));
+        bench.change_look(|look| look.glow = 0.3);
         bench.harness.run_steps(3);
         let (work, shown) = end(bench);
         let again = start(None);
@@ -237,12 +241,12 @@ fn scenes_glass_and_moved_copies_are_there_again_at_the_next_start() {
     std::fs::write(&path, brillianteer_files::library::cut("oval").unwrap()).unwrap();
     let mut bench = start(path.to_str());
     bench.wait(|editor| editor.model.document.path().is_some());
-    bench.harness.state_mut().act(Edit::Setting(SettingChange::Exposure(1.5)));
+    bench.change_look(|look| look.exposure = 1.5);
     bench.harness.run_steps(3);
     end(bench);
     let mut again = start(None);
     again.wait(|editor| editor.model.document.path() == Some(&path));
-    assert_eq!(again.editor().model.document.work.settings.exposure, 1.5);
+    assert_eq!(again.editor().model.document.work.settings.look.exposure, 1.5);
     assert!(again.editor().model.workspace.shown().len() > 1);
 }
 
@@ -302,8 +306,8 @@ fn a_scene_that_is_exported_opens_as_it_was() {
         assert_same_places(&places(&read, unit), &places(&model.document.work, unit_mm(&model)));
         let shot = &plan.shot;
         assert_eq!(
-            (file.exposure, file.light_turn, file.strength),
-            (shot.exposure, shot.light_turn, shot.strength)
+            (file.look.exposure, file.look.light_turn, file.look.strength),
+            (shot.look.exposure, shot.look.light_turn, shot.look.strength)
         );
         let metals = read.companions.metals.iter().zip(&model.document.work.companions.metals);
         for (now, before) in metals {

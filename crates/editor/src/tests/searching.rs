@@ -3,11 +3,7 @@
 use super::fitting::pick;
 use super::*;
 use brillianteer_cut::Design;
-use brillianteer_session::model::{
-    action::Edit,
-    cut_search::{EndedSearch, SearchEnd, SearchState},
-    render_settings::SettingChange,
-};
+use brillianteer_session::model::cut_search::{EndedSearch, SearchEnd, SearchState};
 use egui::{Role, vec2};
 use egui_kittest::kittest::NodeT;
 use std::path::Path;
@@ -175,14 +171,14 @@ fn undo_in_a_search_ends_it_and_takes_it_back() {
 fn another_exposure_does_not_stop_a_search_and_is_a_step_of_its_own() {
     let mut bench = begun();
     let before = given(&bench);
-    bench.harness.state_mut().act(Edit::Setting(SettingChange::Exposure(1.0)));
+    bench.change_look(|look| look.exposure = 1.0);
     bench.harness.run_steps(3);
     assert!(bench.editor().model.session.search.running().is_some());
     bench.click("Discard");
     assert_eq!(*design(&bench), before);
-    assert_eq!(bench.editor().model.document.work.settings.exposure, 1.0);
+    assert_eq!(bench.editor().model.document.work.settings.look.exposure, 1.0);
     bench.choose("Edit", "Undo");
-    assert_eq!(bench.editor().model.document.work.settings.exposure, 0.0);
+    assert_eq!(bench.editor().model.document.work.settings.look.exposure, 0.0);
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn modes_are_named_in_the_head_of_a_view_and_a_click_ends_each() {
     for key in [Key::W, Key::P, Key::E, Key::X] {
         bench.harness.key_press(key);
     }
-    bench.harness.state_mut().model.document.work.settings.head = 12.0;
+    bench.harness.state_mut().model.document.work.settings.look.head = Some(12.0);
     bench.harness.run_steps(2);
     bench.click("Linked");
     let names =
@@ -39,7 +39,7 @@ fn modes_are_named_in_the_head_of_a_view_and_a_click_ends_each() {
     assert!(workspace.panes[0].own.is_none() && !workspace.eye.eye_leans && workspace.overlay.is_none());
     assert!(
         projection(&bench, 0) == Projection::Orthographic
-            && bench.editor().model.document.work.settings.head == 0.0
+            && bench.editor().model.document.work.settings.look.head.is_none()
     );
 }
 
@@ -47,10 +47,10 @@ fn modes_are_named_in_the_head_of_a_view_and_a_click_ends_each() {
 fn a_mixture_of_refraction_is_named_over_its_render() {
     let mut bench = alone(Shows::Render);
     let settings = &mut bench.harness.state_mut().model.document.work.settings;
-    (settings.background, settings.strength) = (Some("page".to_owned()), 0.25);
+    (settings.look.background, settings.look.strength) = (Some("page".into()), 0.25);
     bench.harness.run_steps(2);
     bench.click("strength 0.250 ×");
-    assert_eq!(bench.editor().model.document.work.settings.strength, 1.0);
+    assert_eq!(bench.editor().model.document.work.settings.look.strength, 1.0);
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn exposure_and_overlays_of_a_render_are_made_of_the_light_that_was_traced() {
     let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(900.0, 300.0));
     bench.settle();
     let (traced, dark) = (bench.editor().studio.traced(), bench.picture(0));
-    bench.harness.state_mut().model.document.work.settings.exposure = 1.5;
+    bench.harness.state_mut().model.document.work.settings.look.exposure = 1.5;
     bench.settle();
     let bright = bench.picture(0);
     assert_eq!(bench.editor().studio.traced(), traced, "another exposure");
@@ -190,7 +190,7 @@ fn exposure_and_overlays_of_a_render_are_made_of_the_light_that_was_traced() {
     assert_eq!(bench.editor().studio.traced(), traced, "an overlay");
     assert_ne!(bench.picture(0), bright);
     bench.harness.state_mut().model.workspace.toggle_overlay("wireframe");
-    bench.harness.state_mut().model.document.work.settings.exposure = 0.0;
+    bench.harness.state_mut().model.document.work.settings.look.exposure = 0.0;
     bench.settle();
     assert_eq!(bench.picture(0), dark, "it is the picture that there was");
 }
@@ -270,7 +270,7 @@ fn every_light_can_be_clicked() {
     let last = LIGHTS[LIGHTS.len() - 1];
     let at = bench.harness.get_by_label(last).rect().center();
     bench.click_at(at);
-    assert_eq!(bench.editor().model.document.work.settings.light, last);
+    assert_eq!(bench.editor().model.document.work.settings.look.light, last);
 }
 
 #[test]

@@ -58,7 +58,7 @@ fn contents(model: &Model, tools: &mut ViewTools, ui: &mut Ui) {
     let specimen = model.document.specimen();
     match tools.probe.of(specimen).path(&view, at) {
         Some(path) => {
-            let scope = zones(shows, model.document.work.settings.head);
+            let scope = zones(shows, model.document.work.settings.look.head_of_scopes());
             tools.following.view.show(ui, &specimen.body, &path, &scope, &view);
         }
         None => {

@@ -6,10 +6,7 @@ use super::pane_context::{PaneContext, focus};
 use super::view_menu::attend;
 use crate::arrows;
 use brillianteer_session::liquid::{LightMotion, Liquid};
-use brillianteer_session::model::{
-    action::{Edit, ViewAction},
-    render_settings::SettingChange,
-};
+use brillianteer_session::model::action::{Edit, ViewAction};
 use brillianteer_session::shows::Shows;
 use brillianteer_session::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo};
@@ -38,7 +35,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
     }
     let own = cx.model.document.work.settings.liquid;
     let moved = Liquid { light_from: own.light_from, ..liquid };
-    cx.actions.push_changed(&own, moved, |liquid| Edit::Setting(SettingChange::Liquid(Box::new(liquid))));
+    cx.actions.push_changed(&own, moved, |liquid| Edit::Liquid(Box::new(liquid)));
     // Where the light follows the pointer or time, it moves without steps of undo.
     move_light(cx, ui, &response, &mut liquid);
     cx.actions.push_changed(&before.light_from, liquid.light_from, ViewAction::LiquidLight);

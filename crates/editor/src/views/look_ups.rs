@@ -30,7 +30,7 @@ fn liquid(
     size: [u32; 2],
 ) -> Option<LookupRequest> {
     let shot = tools.orders(model).shot(pane, which, size)?;
-    let behind = backdrop(shot.behind.as_ref());
+    let behind = backdrop(shot.look.background.as_ref());
     Some(LookupRequest { shot, grade: Grade::Fine, map: None, behind })
 }
 
@@ -38,7 +38,7 @@ fn liquid(
 fn refracted(model: &Model, tools: &ViewTools, slot: Slot) -> Option<LookupRequest> {
     let shown = tools.gallery.traced.get(&slot)?;
     let map = shown.taken.map.clone()?;
-    let behind = backdrop(model.document.work.settings.background().as_ref());
+    let behind = backdrop(model.document.work.settings.look.background_at_hand());
     let moved = model.session.flowing[slot.0].moved;
     Some(LookupRequest { shot: shown.shot.clone(), grade: shown.grade, map: Some((map, moved)), behind })
 }

@@ -3,13 +3,12 @@
 
 use super::pane_context::PaneContext;
 use crate::menus::menu_button;
-use brillianteer_render::USUAL_BOUNCES;
+use brillianteer_scene::USUAL_BOUNCES;
 use brillianteer_session::model::{
     Model,
-    action::{Action, Edit, ViewAction},
+    action::{Action, ViewAction},
     command::Command,
     eye::Eye,
-    render_settings::SettingChange,
     workspace::Pane,
 };
 use brillianteer_session::shows::Shows;
@@ -74,43 +73,48 @@ impl Mode {
     /// Returns the modes of the settings of pictures that are on where a view shows this.
     fn of_settings(model: &Model, shows: Shows) -> impl Iterator<Item = Self> {
         let settings = &model.document.work.settings;
-        let head = settings.head;
-        let takes_head = shows.scoped().is_some_and(|scope| scope.takes_head);
-        let shows_background = matches!(shows, Shows::Render | Shows::Refraction);
+        let head = settings.look.head_of_scopes();
+        let takes_head = shows_light(shows) || shows.scoped().is_some_and(|scope| scope.takes_head);
+        let shows_background = shows_light(shows);
         let strength = if shows_background { settings.strength() } else { 1.0 };
-        let bounces = if shows == Shows::Render { settings.bounces } else { USUAL_BOUNCES };
-        let missing = settings.missing_background().filter(|_| shows_background);
+        let bounces = if shows == Shows::Render { settings.look.bounces } else { USUAL_BOUNCES };
+        let missing = settings.look.missing_background().filter(|_| shows_background);
         let of_settings = [
             (head > 0.0 && takes_head).then(|| {
                 let meaning = "The observer's head blocks light, here and in the figures.";
-                mode(format!("head {head:.1}°"), meaning, Edit::Setting(SettingChange::Head(0.0)))
+                mode(format!("head {head:.1}°"), meaning, model.look_with(|look| look.head = None))
             }),
-            missing.map(missing_background),
+            missing.map(|path| missing_background(model, path)),
             (bounces < USUAL_BOUNCES).then(|| {
                 let meaning =
                     "Light is followed through no more bounces than this; the rest of the light is dark.";
                 mode(
                     format!("bounces ≤ {bounces}"),
                     meaning,
-                    Edit::Setting(SettingChange::Bounces(USUAL_BOUNCES)),
+                    model.look_with(|look| look.bounces = USUAL_BOUNCES),
                 )
             }),
             (strength < 1.0).then(|| {
                 let meaning =
                     "Below 1, the refracted ray is mixed with the straight ray, which is not physics.";
-                mode(format!("strength {strength:.3}"), meaning, Edit::Setting(SettingChange::Strength(1.0)))
+                mode(format!("strength {strength:.3}"), meaning, model.look_with(|look| look.strength = 1.0))
             }),
         ];
         of_settings.into_iter().flatten()
     }
 }
 
-/// Returns the mode of views whose background has this name, when its file cannot be read.
-fn missing_background(name: &str) -> Mode {
+/// Returns whether a view shows the stone under light.
+fn shows_light(shows: Shows) -> bool {
+    matches!(shows, Shows::Render | Shows::Refraction)
+}
+
+/// Returns the mode of views whose background is this file, when it cannot be read.
+fn missing_background(model: &Model, path: &Path) -> Mode {
     let meaning = "The file of the background cannot be read, so nothing is behind the stone, and the strength of \
                    refraction is 1.";
-    let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
-    mode(format!("{name} is missing"), meaning, Edit::Setting(SettingChange::Background(None)))
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    mode(format!("{name} is missing"), meaning, model.look_with(|look| look.background = None))
 }
 
 /// Draws the names of a view's modes in a row; a menu at its end holds those that `width` points have no room for.

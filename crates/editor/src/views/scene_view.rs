@@ -194,7 +194,7 @@ pub fn zones(shows: Shows, head: f64) -> Scope {
 fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) else { return };
     let specimen = cx.model.document.specimen();
-    let scope = zones(cx.shows, cx.model.document.work.settings.head);
+    let scope = zones(cx.shows, cx.model.document.work.settings.look.head_of_scopes());
     let found = cx.tools.probe.of(specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
     let Some(found) = found else { return };
     sight.outline_face(ui, &specimen.body, found.facet, |corner| corner);

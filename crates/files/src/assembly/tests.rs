@@ -59,7 +59,7 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
     let weights: Vec<f64> =
         trilogy.scene.instances.iter().map(|s| s.carats(trilogy.scene.unit_mm).unwrap()).collect();
     assert!(weights.iter().zip([0.5, 1.0, 0.5]).all(|(a, b)| (a - b).abs() < 1e-9), "{weights:?}");
-    assert_eq!(trilogy.light, Some("studio".into()));
+    assert_eq!(trilogy.look.light, "studio");
     for (name, count) in [("trilogy", 3), ("Ring", 8), ("parcel", 12)] {
         let scene = load(name);
         assert_eq!((scene.scene.instances.len(), scene.places.len()), (count, count));
@@ -84,8 +84,8 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
     ] {
         let scene = load(name);
         assert_eq!(scene.scene.instances.len(), count, "{name}");
-        assert_eq!(scene.strength, strength, "{name}");
-        assert!(scene.background.is_some() && scene.angle_of_view == Some(45.0), "{name}");
+        assert_eq!(scene.look.strength, strength, "{name}");
+        assert!(scene.look.background.is_some() && scene.angle_of_view == Some(45.0), "{name}");
         if name == "subtle-pill" {
             // Pills do not lean, and are as wide as in the demonstration.
             let (low, high) = scene.scene.instances[0].solid().bounds();

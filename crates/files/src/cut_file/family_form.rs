@@ -3,7 +3,8 @@
 use super::values::TomlTable;
 use crate::toml_text::meant;
 use brillianteer_base::Fault;
-use brillianteer_cut::{Cut, FAMILIES, Family, Proportion, ProportionError, Unit};
+use brillianteer_base::Unit;
+use brillianteer_cut::{Cut, FAMILIES, Family, Proportion, ProportionError};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -123,7 +124,7 @@ pub(super) fn written(family: &Family, cut: &Cut) -> String {
     let number = |(row, value): (&Proportion, f64)| {
         let value = match row.unit {
             Unit::Count => toml::Value::from(value as i64),
-            Unit::Percent | Unit::Degrees | Unit::Ratio => toml::Value::from(value),
+            _ => toml::Value::from(value),
         };
         format!("{} = {value}\n", row.key)
     };

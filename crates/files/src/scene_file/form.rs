@@ -6,17 +6,22 @@ use super::super::mesh_options::MeshPart;
 use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
 use super::metal_form::{MetalForm, metals};
-use super::ring_form::{RingForm, ring};
-use super::shared::{DEGREES, SizeForm, likely, material, place_mm, shown, within};
+use super::numbers::{StatedNumbers, taken};
+use super::ring_form::{self, RingForm, ring};
+use super::shared::{SizeForm, likely, material, place_mm, shown, within};
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
 use brillianteer_base::Fault;
 use brillianteer_cut::is_printable;
-use brillianteer_scene::{BackgroundRef, Layout, Movement};
+use brillianteer_scene::{
+    BACKGROUND_DISTANCE, BackgroundRef, LOOK_NUMBERS, Layout, Look, Movement, Tone, USUAL_LIGHT, UnknownTone,
+};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use toml::Spanned;
+use toml::de::{DeTable, Error};
 
 /// A whole scene file.
 #[derive(Serialize, Deserialize)]
@@ -25,23 +30,45 @@ pub(super) struct SceneForm {
     format: i64,
     name: String,
     light: Option<String>,
-    light_turn: Option<f64>,
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     light_upright: bool,
+    background: Option<String>,
+    tone: Option<String>,
     layout: Option<String>,
     gap_mm: Option<f64>,
-    background: Option<String>,
-    background_distance_mm: Option<f64>,
-    strength: Option<f64>,
     movement: Option<String>,
     angle_of_view: Option<f64>,
-    exposure: Option<f64>,
+    /// The numbers of the look, which are read by their rows before the rest.
+    #[serde(flatten, skip_deserializing)]
+    numbers: StatedNumbers,
     #[serde(skip_serializing_if = "Option::is_none")]
     stone: Option<Vec<Spanned<TomlTable<StoneForm>>>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     metal: Vec<Spanned<TomlTable<MetalForm>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     ring: Option<Spanned<TomlTable<RingForm>>>,
+}
+
+/// The numbers of a scene file that are read by their rows.
+pub(super) struct SceneNumbers {
+    look: BTreeMap<String, f64>,
+    ring: BTreeMap<String, f64>,
+}
+
+impl SceneNumbers {
+    /// Takes the numbers out of the table of a whole file.
+    pub fn take(file: &mut DeTable<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            look: taken(file, None, LOOK_NUMBERS.into_iter())?,
+            ring: taken(file, Some("ring"), ring_form::rows())?,
+        })
+    }
+
+    /// Returns the keys of the numbers, each with the name of its table, which is empty at the top.
+    pub fn keys() -> Vec<(&'static str, &'static str)> {
+        let of_ring = ring_form::rows().map(|row| ("ring", row.key));
+        LOOK_NUMBERS.into_iter().map(|row| ("", row.key)).chain(of_ring).collect()
+    }
 }
 
 /// A table `[[stone]]`.
@@ -101,59 +128,56 @@ fn is_alone(count: &i64) -> bool {
 }
 
 const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
-const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const ANGLES_OF_VIEW: RangeInclusive<f64> = 1.0..=120.0;
-const STOPS: RangeInclusive<f64> = -40.0..=40.0;
+
 impl SceneForm {
     /// Returns the form in which a scene is written.
     pub fn of(scene: &SceneFile) -> Self {
+        let (look, usual) = (&scene.look, Look::default());
         let is = |layout: &Layout| Layout::NAMES.into_iter().find(|(_, other)| other == layout);
         let is_placed = scene.layout.is_none();
         let stone = |entry| Spanned::new(0..0, TomlTable(StoneForm::of(entry, is_placed)));
         Self {
             format: FORMAT,
             name: scene.name.clone(),
-            light: scene.light.as_ref().map(|light| light.to_string_lossy().into_owned()),
-            light_turn: (scene.light_turn != 0.0).then_some(scene.light_turn),
-            light_upright: scene.light_upright,
+            light: (look.light != USUAL_LIGHT).then(|| look.light.clone()),
+            light_upright: look.light_upright,
+            background: look.background.as_ref().map(ToString::to_string),
+            tone: (look.tone != Tone::default()).then(|| look.tone.name().to_owned()),
             layout: scene.layout.as_ref().and_then(is).map(|(name, _)| name.to_owned()),
             gap_mm: scene.layout.map(|_| scene.gap_mm),
-            background: scene.background.as_ref().map(ToString::to_string),
-            background_distance_mm: scene.background_distance_mm,
-            strength: Some(scene.strength),
             movement: (scene.movement != Movement::default()).then(|| scene.movement.name().to_owned()),
             angle_of_view: scene.angle_of_view,
-            exposure: (scene.exposure != 0.0).then_some(scene.exposure),
+            numbers: StatedNumbers::of(LOOK_NUMBERS.into_iter(), look, |row| {
+                (row.get)(look) != (row.get)(&usual)
+            }),
             stone: (!scene.stones.is_empty()).then(|| scene.stones.iter().map(stone).collect()),
             metal: scene.metals.iter().map(|m| Spanned::new(0..0, TomlTable(MetalForm::of(m)))).collect(),
             ring: scene.ring.as_ref().map(|ring| Spanned::new(0..0, TomlTable(RingForm::of(ring)))),
         }
     }
 
-    /// Returns the scene that the form of a text describes, checked; files that it names are sought from `folder`.
-    pub fn scene(self, text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
+    /// Returns the scene that the form of a text describes, with the numbers of its look, checked; files that it names are
+    /// sought from `folder`.
+    pub fn scene(
+        self,
+        numbers: &SceneNumbers,
+        text: &str,
+        folder: Option<&Path>,
+    ) -> Result<SceneFile, Fault> {
         if !is_printable(&self.name) {
             return Err(Fault::key("name", "name: a name of 1 to 200 printable characters is expected"));
         }
-        let light = self.light.as_deref().map(|given| found(given, folder)).transpose()?;
+        let look = self.look(&numbers.look, folder)?;
         let layout = self.layout.as_deref().map(layout).transpose()?;
         if self.gap_mm.is_some() && layout.is_none() {
             return Err(Fault::key("gap_mm", "gap_mm: only a layout has gaps; give layout, or leave it out"));
         }
         let gap_mm = self.gap_mm.unwrap_or(DEFAULT_GAP_MM);
         within("gap_mm", "gap_mm", gap_mm, GAPS_MM, "mm")?;
-        let background = self.background.as_deref().map(|given| behind(given, folder)).transpose()?;
-        if let Some(distance) = self.background_distance_mm {
-            if !background.as_ref().is_some_and(BackgroundRef::is_picture) {
-                let message = "background_distance_mm: only a pattern, a world or a photograph has a distance; give background, or \
-                               leave it out";
-                return Err(Fault::key("background_distance_mm", message));
-            }
-            within("background_distance_mm", "background_distance_mm", distance, DISTANCES_MM, "mm")?;
+        if let Some(angle) = self.angle_of_view {
+            within("angle_of_view", "angle_of_view", angle, ANGLES_OF_VIEW, "degrees")?;
         }
-        let (strength, exposure) = (self.strength.unwrap_or(1.0), self.exposure.unwrap_or(0.0));
-        let light_turn = self.light_turn.unwrap_or(0.0);
-        check_picture(strength, self.angle_of_view, light_turn, exposure)?;
         let movement = self.movement.as_deref().map(movement).transpose()?.unwrap_or_default();
         let stones = stones(self.stone, !self.metal.is_empty() || self.ring.is_some())?;
         let alone = stones.len() == 1;
@@ -166,45 +190,37 @@ impl SceneForm {
         };
         let stones = stones.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
         let metals = metals(self.metal, text)?;
-        let ring = self.ring.map(|form| ring(form, text)).transpose()?;
-        let Self { name, background_distance_mm, angle_of_view, light_upright, .. } = self;
-        Ok(SceneFile {
-            name,
-            light,
-            light_turn,
-            light_upright,
-            layout,
-            gap_mm,
-            background,
-            background_distance_mm,
-            strength,
-            movement,
-            angle_of_view,
-            exposure,
-            stones,
-            metals,
-            ring,
-        })
+        let ring = self.ring.map(|form| ring(form, &numbers.ring, text)).transpose()?;
+        let Self { name, angle_of_view, .. } = self;
+        Ok(SceneFile { name, look, layout, gap_mm, movement, angle_of_view, stones, metals, ring })
     }
-}
 
-/// Checks the numbers of a scene's picture: the strength of refraction, the angle of view, the turn of its light and
-/// the exposure.
-fn check_picture(
-    strength: f64,
-    angle_of_view: Option<f64>,
-    light_turn: f64,
-    exposure: f64,
-) -> Result<(), Fault> {
-    if !(0.0..=1.0).contains(&strength) {
-        let message = format!("strength: {strength} must be from 0, straight on, to 1, physics");
-        return Err(Fault::key("strength", message));
+    /// Returns what pictures of the scene are made with.
+    fn look(&self, numbers: &BTreeMap<String, f64>, folder: Option<&Path>) -> Result<Look, Fault> {
+        let usual = Look::default();
+        let light = self.light.as_deref().map(|given| found(given, folder)).transpose()?;
+        let tone = self.tone.as_deref().map(str::parse).transpose();
+        let tone = tone.map_err(|error: UnknownTone| Fault::key("tone", format!("tone: {error}")))?;
+        let mut look = Look {
+            light: light.unwrap_or(usual.light),
+            light_upright: self.light_upright,
+            background: self.background.as_deref().map(|given| behind(given, folder)).transpose()?,
+            tone: tone.unwrap_or_default(),
+            ..usual
+        };
+        for row in LOOK_NUMBERS {
+            let Some(value) = numbers.get(row.key) else { continue };
+            row.check(*value).map_err(|error| Fault::key(row.key, error.to_string()))?;
+            (row.set)(&mut look, *value);
+        }
+        if look.background_mm.is_some() && !look.background.as_ref().is_some_and(BackgroundRef::is_picture) {
+            let key = BACKGROUND_DISTANCE.key;
+            let message =
+                "only a pattern, a world or a photograph has a distance; give background, or leave it out";
+            return Err(Fault::key(key, format!("{key}: {message}")));
+        }
+        Ok(look)
     }
-    if let Some(angle) = angle_of_view {
-        within("angle_of_view", "angle_of_view", angle, ANGLES_OF_VIEW, "degrees")?;
-    }
-    within("light_turn", "light_turn", light_turn, DEGREES, "degrees")?;
-    within("exposure", "exposure", exposure, STOPS, "stops")
 }
 
 fn layout(given: &str) -> Result<Layout, Fault> {

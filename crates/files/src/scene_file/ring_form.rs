@@ -3,11 +3,13 @@
 use super::super::cut_file::material_form::MaterialForm;
 use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::toml_text::line_at;
+use super::numbers::StatedNumbers;
 use super::ring_entry::RingEntry;
 use super::shared::{SizeForm, likely, material, metal, place_mm, roughness, shown};
-use brillianteer_base::Fault;
-use brillianteer_scene::{OuterShape, Ring, RingStyle};
+use brillianteer_base::{Fault, NumberRow};
+use brillianteer_scene::{OuterShape, RING_NUMBERS, Ring, RingStyle};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use toml::Spanned;
 
 /// The table `[ring]`.
@@ -23,18 +25,9 @@ pub(super) struct RingForm {
     small_stone: Option<String>,
     small_material: Option<MaterialForm>,
     outside: Option<String>,
-    inner_diameter_mm: Option<f64>,
-    width_mm: Option<f64>,
-    thickness_mm: Option<f64>,
-    comfort_mm: Option<f64>,
-    taper: Option<f64>,
-    prong_diameter_mm: Option<f64>,
-    notch: Option<f64>,
-    grip_mm: Option<f64>,
-    culet_gap_mm: Option<f64>,
-    rail_diameter_mm: Option<f64>,
-    small_diameter_mm: Option<f64>,
-    small_gap_mm: Option<f64>,
+    /// The numbers, which are read by their rows before the rest.
+    #[serde(flatten, skip_deserializing)]
+    numbers: StatedNumbers,
     #[serde(default)]
     turn: f64,
     #[serde(default)]
@@ -59,18 +52,7 @@ impl RingForm {
             small_stone: entry.small_stone.clone(),
             small_material: material(&entry.small_material),
             outside: Some(ring.outside.name().to_owned()),
-            inner_diameter_mm: Some(ring.inner_diameter_mm),
-            width_mm: Some(ring.width_mm),
-            thickness_mm: Some(ring.thickness_mm),
-            comfort_mm: Some(ring.comfort_mm),
-            taper: Some(ring.taper),
-            prong_diameter_mm: Some(ring.prong_diameter_mm),
-            notch: Some(ring.notch),
-            grip_mm: Some(ring.grip_mm),
-            culet_gap_mm: Some(ring.culet_gap_mm),
-            rail_diameter_mm: Some(ring.rail_diameter_mm),
-            small_diameter_mm: Some(ring.small_diameter_mm),
-            small_gap_mm: Some(ring.small_gap_mm),
+            numbers: StatedNumbers::of(rows(), ring, |_| true),
             turn: entry.turn,
             tilt: entry.tilt,
             azimuth: entry.azimuth,
@@ -78,30 +60,20 @@ impl RingForm {
         }
     }
 
-    /// Returns the ring's numbers; those that are not given are the usual ones.
-    fn ring(&self) -> Result<Ring, Fault> {
+    /// Returns the ring; numbers that are not given are the usual ones.
+    fn ring(&self, numbers: &BTreeMap<String, f64>) -> Result<Ring, Fault> {
         let outside = self.outside.as_deref().map(|name| named("outside", name, &OuterShape::NAMES));
         let usual = Ring::default();
-        Ok(Ring {
-            style: named("style", &self.style, &RingStyle::NAMES)?,
-            outside: outside.transpose()?.unwrap_or(usual.outside),
-            inner_diameter_mm: self.inner_diameter_mm.unwrap_or(usual.inner_diameter_mm),
-            width_mm: self.width_mm.unwrap_or(usual.width_mm),
-            thickness_mm: self.thickness_mm.unwrap_or(usual.thickness_mm),
-            comfort_mm: self.comfort_mm.unwrap_or(usual.comfort_mm),
-            taper: self.taper.unwrap_or(usual.taper),
-            prong_diameter_mm: self.prong_diameter_mm.unwrap_or(usual.prong_diameter_mm),
-            notch: self.notch.unwrap_or(usual.notch),
-            grip_mm: self.grip_mm.unwrap_or(usual.grip_mm),
-            culet_gap_mm: self.culet_gap_mm.unwrap_or(usual.culet_gap_mm),
-            rail_diameter_mm: self.rail_diameter_mm.unwrap_or(usual.rail_diameter_mm),
-            small_diameter_mm: self.small_diameter_mm.unwrap_or(usual.small_diameter_mm),
-            small_gap_mm: self.small_gap_mm.unwrap_or(usual.small_gap_mm),
-        })
+        let style = named("style", &self.style, &RingStyle::NAMES)?;
+        let mut ring = Ring { style, outside: outside.transpose()?.unwrap_or(usual.outside), ..usual };
+        // `Ring::check` finds what is out of its range.
+        rows()
+            .for_each(|row| numbers.get(row.key).into_iter().for_each(|value| (row.set)(&mut ring, *value)));
+        Ok(ring)
     }
 
-    fn entry(self, line: usize) -> Result<RingEntry, Fault> {
-        let ring = self.ring()?;
+    fn entry(self, numbers: &BTreeMap<String, f64>, line: usize) -> Result<RingEntry, Fault> {
+        let ring = self.ring(numbers)?;
         ring.check(self.stone.is_some(), self.small_stone.is_some())
             .map_err(|error| Fault::key(error.key(), error))?;
         let idle = [
@@ -132,11 +104,20 @@ impl RingForm {
     }
 }
 
-/// Returns the ring that the table of a text describes.
-pub(super) fn ring(form: Spanned<TomlTable<RingForm>>, text: &str) -> Result<RingEntry, Fault> {
+/// Returns the rows of a ring's numbers.
+pub(super) fn rows() -> impl Iterator<Item = &'static NumberRow<Ring>> {
+    RING_NUMBERS.iter().map(|number| &number.row)
+}
+
+/// Returns the ring that the table of a text describes, with these numbers.
+pub(super) fn ring(
+    form: Spanned<TomlTable<RingForm>>,
+    numbers: &BTreeMap<String, f64>,
+    text: &str,
+) -> Result<RingEntry, Fault> {
     let line = line_at(text, form.span().start);
     let TomlTable(form) = form.into_inner();
-    form.entry(line).map_err(|fault| fault.within("ring/", "ring: "))
+    form.entry(numbers, line).map_err(|fault| fault.within("ring/", "ring: "))
 }
 
 /// Returns the value of a name; the fault names the key and the known names.

@@ -27,7 +27,7 @@ fn assert_refused(text: &str, expected: &str) {
 fn a_layout_and_places_read_as_written() {
     let scene = parse(TRILOGY, "x.toml", None).unwrap();
     assert_eq!((scene.name.as_str(), scene.layout, scene.gap_mm), ("Three", Some(Layout::Row), 0.6));
-    assert_eq!(scene.light, Some("studio".into()));
+    assert_eq!(scene.look.light, "studio");
     let plain = Entry {
         cut: "tolkowsky".to_owned(),
         part: crate::mesh_options::MeshPart::Found,
@@ -45,11 +45,11 @@ fn a_layout_and_places_read_as_written() {
     assert_eq!((first.size, first.count, first.line), (Some(Size::Carats(1.0)), 2, 6));
     assert_eq!(first.material, Some(MaterialRef::Name("ruby".to_owned())));
     let scene = parse(PLACED, "x.toml", None).unwrap();
-    assert_eq!((scene.layout, scene.light, scene.gap_mm), (None, None, DEFAULT_GAP_MM));
+    assert_eq!((scene.layout, scene.look.light.as_str(), scene.gap_mm), (None, "studio", DEFAULT_GAP_MM));
     assert_eq!(scene.stones[1].at_mm, DVec3::new(8.0, -1.5, 2.0));
     let glass = scene.stones[1].material.as_ref().unwrap().material().unwrap();
     assert_eq!(glass.index(SODIUM_D), 1.5);
-    assert_eq!((&scene.background, scene.background_distance_mm, scene.strength), (&None, None, 1.0));
+    assert_eq!((&scene.look.background, scene.look.background_mm, scene.look.strength), (&None, None, 1.0));
     let behind = with(
         PLACED,
         "[[stone]]",
@@ -57,14 +57,14 @@ fn a_layout_and_places_read_as_written() {
             [[stone]]",
     );
     let scene = parse(&behind, "x.toml", None).unwrap();
-    assert_eq!(scene.background, Some(BackgroundRef::Pattern(brillianteer_scene::Pattern::Page)));
-    assert_eq!((scene.background_distance_mm, scene.strength), (Some(12.0), 0.5));
-    assert_eq!((scene.angle_of_view, scene.exposure), (Some(45.0), -0.5));
-    assert_eq!((scene.light_turn, scene.light_upright), (30.0, true));
+    assert_eq!(scene.look.background, Some(BackgroundRef::Pattern(brillianteer_scene::Pattern::Page)));
+    assert_eq!((scene.look.background_mm, scene.look.strength), (Some(12.0), 0.5));
+    assert_eq!((scene.angle_of_view, scene.look.exposure), (Some(45.0), -0.5));
+    assert_eq!((scene.look.light_turn, scene.look.light_upright), (30.0, true));
     let scene = parse(&behind.replace("Page", "City"), "x.toml", None).unwrap();
-    assert_eq!(scene.background, Some(BackgroundRef::World(brillianteer_scene::World::City)));
+    assert_eq!(scene.look.background, Some(BackgroundRef::World(brillianteer_scene::World::City)));
     let world = with(PLACED, "[[stone]]", "light = \"room\"\n[[stone]]");
-    assert_eq!(parse(&world, "x.toml", None).unwrap().light.unwrap(), std::path::Path::new("room"));
+    assert_eq!(parse(&world, "x.toml", None).unwrap().look.light, "room");
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
     assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
 }
@@ -158,7 +158,7 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
             "background = \"page\"\nbackground_distance_mm = -3",
             "x.toml:4: background_distance_mm: -3 must be from 0",
         ),
-        ("strength = 1.5", "x.toml:3: strength: 1.5 must be from 0, straight on, to 1, physics"),
+        ("strength = 1.5", "x.toml:3: strength: 1.5 must be from 0 to 1"),
         ("strength = nan", "x.toml:3: strength: NaN must be"),
         (
             "movement = \"waves\"",
@@ -166,6 +166,14 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ),
         ("angle_of_view = 0.5", "x.toml:3: angle_of_view: 0.5 must be from 1 to 120 degrees"),
         ("exposure = 50", "x.toml:3: exposure: 50 must be from -40 to 40 stops"),
+        (
+            "exposure = \"dark\"",
+            "x.toml:3: exposure: invalid type: string \"dark\", expected a number (-40 to 40 stops)",
+        ),
+        ("wavelengths = 2.5", "x.toml:3: wavelengths: 2.5 must be a whole number from 1 to 64"),
+        ("head = 90", "x.toml:3: head: 90 must be from 0 to 89 degrees"),
+        ("tone = \"vivid\"", "x.toml:3: tone: tone 'vivid': give neutral, filmic or linear"),
+        ("exposrue = 1", "x.toml:3: unknown key `exposrue`"),
     ] {
         assert_refused(&with(PLACED, "[[stone]]", &format!("{lines}\n[[stone]]")), message);
     }
@@ -234,7 +242,7 @@ fn a_light_may_be_a_file_beside_the_scene() {
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, with(TRILOGY, "\"studio\"", "\"lamp.toml\"")).unwrap();
     assert!(is_scene(&path));
-    assert_eq!(read(&path).unwrap().light, Some(folder.path().join("lamp.toml")));
+    assert_eq!(read(&path).unwrap().look.light, folder.path().join("lamp.toml").to_string_lossy());
 }
 
 proptest::proptest! {
@@ -254,8 +262,14 @@ proptest::proptest! {
 
 #[test]
 fn what_is_written_reads_back_as_the_same_scene() {
+    let all = "glow = 0.5\ntone = \"filmic\"\nwavelengths = 3\nbounces = 7\nhead = 12.5\nlight = \"dome\"\nlight_turn = 30\n\
+               light_upright = true\nexposure = 2";
     let behind = |text: &str| {
-        with(PLACED, "[[stone]]", &format!("{text}\nstrength = 0.25\nmovement = \"tumble\"\n[[stone]]"))
+        with(
+            PLACED,
+            "[[stone]]",
+            &format!("{text}\n{all}\nstrength = 0.25\nmovement = \"tumble\"\n[[stone]]"),
+        )
     };
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\", turn = 1e5, size = \"0.37ct\" }]";
     let own = "material = { name = \"mine\", index = 1.7, density = 3.1 }";

@@ -1,24 +1,14 @@
 //! The reasons why a ring cannot be made, each with the number at fault and the excess.
 
 use super::RingStyle;
+use brillianteer_base::NumberError;
 
 /// The reason why a ring cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RingError {
     /// A number lies outside its range, or is not finite.
-    #[error("{key}: {value} must be from {least} to {most}{}{unit}", if unit.is_empty() { "" } else { " " })]
-    OutOfRange {
-        /// The key of the number.
-        key: &'static str,
-        /// The value as given.
-        value: f64,
-        /// The least value.
-        least: f64,
-        /// The greatest value.
-        most: f64,
-        /// The unit.
-        unit: &'static str,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] NumberError),
     /// The style holds a stone that is not given.
     #[error("stone: a ring of style '{}' holds a stone; give its cut", style.name())]
     NoStone {
@@ -79,7 +69,7 @@ impl RingError {
     /// Returns the key of the number or stone at fault.
     pub fn key(&self) -> &'static str {
         match self {
-            Self::OutOfRange { key, .. }
+            Self::OutOfRange(NumberError { key, .. })
             | Self::NoPlace { key, .. }
             | Self::OffAxis { key }
             | Self::NoRoom { key, .. } => key,

@@ -137,7 +137,7 @@ pub(super) fn prongs(ring: &Ring, stone: &SetStone) -> Result<Prongs, RingError>
         })?;
         Ok(Prong { azimuth, way, section })
     };
-    let prongs = sections.into_iter().map(prong).collect::<Result<_, _>>()?;
+    let prongs = sections.into_iter().map(prong).collect::<Result<_, RingError>>()?;
     Ok(Prongs { prongs, lift, base, stance })
 }
 

@@ -387,8 +387,8 @@ fn any_ring() -> impl Strategy<Value = Ring> {
     (style, outside, parts, prop_oneof![Just(1.0), Just(0.15)]).prop_map(|(style, outside, parts, share)| {
         let usual = Ring::default();
         let value = |k: usize| {
-            let [least, most] = RING_NUMBERS[k].range;
-            let first = (RING_NUMBERS[k].get)(&usual);
+            let [least, most] = RING_NUMBERS[k].row.range;
+            let first = (RING_NUMBERS[k].row.get)(&usual).unwrap();
             first + (least + (most - least) * parts[k] - first) * share
         };
         Ring {
@@ -418,7 +418,7 @@ proptest! {
         match made(&ring, &shape, diameter) {
             Err(error) => {
                 let stones = ["stone", "small_stone"];
-                let mut known = RING_NUMBERS.iter().map(|number| number.key).chain(stones);
+                let mut known = RING_NUMBERS.iter().map(|number| number.row.key).chain(stones);
                 prop_assert!(known.any(|key| key == error.key()), "{}: {}", error.key(), error);
             }
             Ok(mounting) => {

@@ -15,10 +15,10 @@ use super::measure_tilt::TiltOptions;
 use super::meet_pick::MeetPick;
 use super::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use super::recovery::RecoveredWork;
-use super::render_settings::SettingChange;
 use super::saving::{SavedDesign, Stamp};
 use super::session::{Flowing, HeldKeys};
 use super::workspace::PanelSide;
+use crate::liquid::Liquid;
 use crate::shows::Shows;
 use crate::studio::{FiguresOrder, Grade, Order, ShotLight, SweptPoint, Tilts, Which};
 use brillianteer_base::Failure;
@@ -27,7 +27,7 @@ use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_measure::Figures;
 use brillianteer_optics::Metal;
 use brillianteer_picture::liquid_glass::LightFrom;
-use brillianteer_scene::{Movement, Pose, Ring, RingMetal, RingPlan, Specimen};
+use brillianteer_scene::{Look, Movement, Pose, Ring, RingMetal, RingPlan, Specimen};
 use brillianteer_search::Goal;
 use glam::DVec2;
 use std::path::PathBuf;
@@ -104,8 +104,10 @@ pub enum Edit {
     Fitted(Box<Design>),
     /// Sets the diameter by which the design is scaled, in mm.
     Diameter(f64),
-    /// Changes one of the settings of pictures.
-    Setting(SettingChange),
+    /// What renders are made with.
+    Look(Box<Look>),
+    /// The pane of liquid glass.
+    Liquid(Box<Liquid>),
     /// Sets light, background and head as they were when the document began.
     ResetLight,
     /// Replaces the copies by so many that are scattered anew.

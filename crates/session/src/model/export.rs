@@ -101,7 +101,7 @@ pub struct ExportPlan {
     /// How plates move, for the scene file.
     pub movement: Movement,
     /// The light, as scene files name it.
-    pub light: PathBuf,
+    pub light: String,
     /// The folder of the files.
     pub folder: PathBuf,
     /// The files of the cutter's sheet, as [`list_sheet`](Self::list_sheet) found them; none where none is written.
@@ -170,7 +170,7 @@ impl ExportPlan {
             turned_deg,
             medium: specimen.medium(line::SODIUM_D),
             wavelength_nm: Some(line::SODIUM_D),
-            head_deg: self.shot.head,
+            head_deg: self.shot.look.head_of_scopes(),
             unresolved: None,
             standard_error: Some(STANDARD_ERROR),
             polarised: true,

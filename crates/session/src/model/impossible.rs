@@ -1,7 +1,8 @@
 //! Explains proportions that no stone can have: at the row that was edited, in that row's terms and by the panel's names.
 
 use crate::value_grid::ValueGrid;
-use brillianteer_cut::{Cut, DesignError, Limit, Proportion, ProportionError, Unit};
+use brillianteer_base::Unit;
+use brillianteer_cut::{Cut, DesignError, Limit, Proportion, ProportionError};
 use brillianteer_scene::SpecimenError;
 
 /// A message about a fault, and the row that shows it.

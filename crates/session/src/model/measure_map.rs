@@ -6,7 +6,8 @@
 use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use super::impossible::by_name;
 use crate::studio::SweepOrder;
-use brillianteer_cut::{Cut, Design, MaterialRef, Proportion, ScaledSide, Unit};
+use brillianteer_base::Unit;
+use brillianteer_cut::{Cut, Design, MaterialRef, Proportion, ScaledSide};
 use brillianteer_math::Plane;
 use brillianteer_measure::{MeasureName, MeasureSettings};
 use brillianteer_render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue};
@@ -59,7 +60,7 @@ impl MapAxis {
         let row = |row: &Proportion| Self {
             key: SweepKey::Proportion(row.key.to_owned()),
             name: row.name.to_owned(),
-            unit: unit_text(row.unit),
+            unit: row.unit.suffix(),
             ends: row.usual,
             whole: 1.0,
         };
@@ -133,15 +134,6 @@ impl MapAxis {
         };
         let values = values.into_iter().map(|value| SweepValue::Number(unit * value)).collect();
         SweepAxis { key: self.key.clone(), values }
-    }
-}
-
-/// Returns the text of a unit behind a number.
-fn unit_text(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Percent => " %",
-        Unit::Degrees => "°",
-        Unit::Count | Unit::Ratio => "",
     }
 }
 

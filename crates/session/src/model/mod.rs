@@ -54,9 +54,10 @@ pub use update::update;
 use crate::liquid::{LightMotion, Liquid};
 use crate::shows::Shows;
 use crate::studio::Which;
+use action::Edit;
 use brillianteer_base::Failure;
 use brillianteer_cut::Cut;
-use brillianteer_scene::{Companions, Copies, Pose, Specimen, View};
+use brillianteer_scene::{Companions, Copies, Look, Pose, Specimen, View};
 use document::Document;
 use framing_fit::FramingFit;
 use glam::DVec3;
@@ -159,6 +160,13 @@ impl Model {
     pub fn is_scene(&self) -> bool {
         let Work { design, copies, companions, .. } = &self.document.work;
         matches!(design.cut, Cut::Glass(_)) || *copies != Copies::default() || !companions.is_empty()
+    }
+
+    /// Returns the edit that changes what renders are made with.
+    pub fn look_with(&self, change: impl FnOnce(&mut Look)) -> Edit {
+        let mut look = self.document.work.settings.look.clone();
+        change(&mut look);
+        Edit::Look(Box::new(look))
     }
 
     /// Returns the pane of liquid glass under its present light.

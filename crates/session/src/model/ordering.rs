@@ -3,9 +3,9 @@
 use super::Model;
 use super::motion::WaveCache;
 use crate::shows::Shows;
-use crate::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, SweepOrder, Which};
+use crate::studio::{FiguresOrder, Order, Paper, Shot, SweepOrder, Which};
 use brillianteer_picture::DrawnMarks;
-use brillianteer_scene::{Companions, Pose, Side, Specimen, View};
+use brillianteer_scene::{Companions, Look, Pose, Side, Smoothing, Specimen, View};
 use std::sync::Arc;
 
 /// A view in sight, and the size of its picture in pixels.
@@ -58,7 +58,12 @@ impl Orders<'_> {
         let view = eye.view(Some(Side::Table));
         let Some(specimen) = self.model.stone(which) else { return };
         let document = self.model.session.begun;
-        let figures = FiguresOrder { document, specimen, view, head: self.model.document.work.settings.head };
+        let figures = FiguresOrder {
+            document,
+            specimen,
+            view,
+            head: self.model.document.work.settings.look.head_of_scopes(),
+        };
         if which == Which::Present {
             order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..figures.clone() });
         }
@@ -87,13 +92,17 @@ impl Orders<'_> {
             false => (specimen, vec![Pose::STILL]),
         };
         let companions = if shows.has_copies() { self.model.companions() } else { Companions::default() };
+        let plain = self.plain(shows, view, specimen);
         Some(Shot {
             film: eye.film(size, &fit),
             whole: fit.whole(size),
             // Renders show three bands while the key for a comparison with three bands is held.
-            bands: if session.keys.three { 3 } else { settings.wavelengths },
+            look: Look {
+                wavelengths: if session.keys.three { 3 } else { settings.look.wavelengths },
+                smoothing: settings.look.smoothing,
+                ..plain.look
+            },
             jitter: !session.keys.three,
-            smoothing: settings.smoothing,
             overlay: workspace.overlay().filter(|_| shows.takes_overlay()),
             paper: self.paper,
             marks: match (shows, which) {
@@ -102,7 +111,7 @@ impl Orders<'_> {
             },
             copies,
             companions,
-            ..self.plain(shows, view, specimen)
+            ..plain
         })
     }
 
@@ -133,20 +142,17 @@ impl Orders<'_> {
             film: fit.film([1, 1]),
             whole: fit.whole([1, 1]),
             light: session.light.at_hand.clone(),
-            exposure: settings.exposure,
-            bands: settings.wavelengths,
+            // Smoothing is for the window alone. The light of the document may still be on its way.
+            look: Look {
+                light: session.light.name.clone(),
+                background: settings.look.background_at_hand().cloned(),
+                strength: settings.strength(),
+                smoothing: Smoothing::None,
+                ..settings.look.clone()
+            },
             jitter: true,
-            behind: settings.background(),
-            distance: settings.background_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
-            strength: settings.strength(),
-            glow: settings.glow,
-            bounces: settings.bounces,
-            light_turn: settings.light_turn,
-            light_upright: settings.light_upright,
             copies: vec![Pose::STILL],
             companions: Companions::default(),
-            smoothing: Smoothing::None,
-            head: settings.head,
             overlay: None,
             liquid: self.model.liquid(),
             paper: Paper::default(),

@@ -20,8 +20,8 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     let specimen = document.named(&shot.specimen);
     let shot = Shot { specimen, ..shot };
     let light = match PathBuf::from(&session.light.name) {
-        file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
-        name => name,
+        file if file.is_file() => std::path::absolute(&file).unwrap_or(file).to_string_lossy().into_owned(),
+        _ => session.light.name.clone(),
     };
     let room = model.room();
     let selection = session.selection.clone();

@@ -21,17 +21,15 @@ pub struct Known {
     pub title: &'static str,
     /// True where the scene begins to move at once.
     pub moves: bool,
-    /// The number of bands of wavelengths in the scene's renders.
-    wavelengths: u32,
 }
 
 /// All scenes of glass that come with the program, in menu order.
 pub static PRESETS: [Known; 5] = [
-    Known { name: "subtle-pill", title: "Subtle pill", moves: false, wavelengths: 8 },
-    Known { name: "prism-rainbow", title: "Prism rainbow", moves: false, wavelengths: 16 },
-    Known { name: "rotating-cube", title: "Rotating cube", moves: true, wavelengths: 16 },
-    Known { name: "wavy-plate", title: "Wavy plate", moves: true, wavelengths: 16 },
-    Known { name: "free-diamond", title: "Free diamond", moves: true, wavelengths: 16 },
+    Known { name: "subtle-pill", title: "Subtle pill", moves: false },
+    Known { name: "prism-rainbow", title: "Prism rainbow", moves: false },
+    Known { name: "rotating-cube", title: "Rotating cube", moves: true },
+    Known { name: "wavy-plate", title: "Wavy plate", moves: true },
+    Known { name: "free-diamond", title: "Free diamond", moves: true },
 ];
 
 impl Known {
@@ -82,7 +80,7 @@ impl Preset {
 
     /// Returns the settings of pictures of the scene.
     pub fn settings(&self) -> RenderSettings {
-        RenderSettings::of_scene(&self.scene, self.known.map(|known| known.wavelengths))
+        RenderSettings::of_scene(&self.scene)
     }
 
     /// Returns whether the scene begins to move at once.
@@ -211,7 +209,7 @@ mod tests {
             assert_eq!(preset.copies.poses.len(), if *name == "free-diamond" { 1 } else { 4 });
         }
         let pill = Preset::of_library("subtle-pill").unwrap();
-        assert_eq!((pill.design.diameter_mm, pill.scene.strength), (40.0, 0.035));
+        assert_eq!((pill.design.diameter_mm, pill.scene.look.strength), (40.0, 0.035));
         // Twenty millimetres are a radius.
         assert!((pill.copies.poses[0].at - DVec3::new(-0.25, 1.005, 0.0)).length() < 1e-9);
     }

@@ -16,7 +16,6 @@ use super::motion::Motion;
 use super::notes::Notes;
 use super::opening::Opening;
 use super::recovery::RecoveredWork;
-use super::render_settings::FIRST_LIGHT;
 use super::saving::Stamp;
 use super::view_history::ViewHistory;
 use super::work::Work;
@@ -26,6 +25,7 @@ use brillianteer_base::Failure;
 use brillianteer_paper::lighting;
 use brillianteer_picture::liquid_glass::LightFrom;
 use brillianteer_scene::RingPlan;
+use brillianteer_scene::USUAL_LIGHT;
 use glam::DVec2;
 use std::path::PathBuf;
 
@@ -196,14 +196,14 @@ impl Session {
     /// # Errors
     /// Fails only where the program itself is broken: it comes with the light that it starts with.
     pub fn new(document: &Document, workspace: &Workspace) -> Result<Self, Failure> {
-        let first = lighting::load(FIRST_LIGHT)?;
+        let first = lighting::load(USUAL_LIGHT)?;
         Ok(Self {
             framing: Framing::of(document),
             views: ViewHistory::new(workspace),
             light: LoadedLight {
-                name: FIRST_LIGHT.to_owned(),
+                name: USUAL_LIGHT.to_owned(),
                 at_hand: ShotLight::whole(first),
-                tried: FIRST_LIGHT.to_owned(),
+                tried: USUAL_LIGHT.to_owned(),
                 loading: None,
             },
             compared: None,

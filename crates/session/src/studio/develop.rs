@@ -1,23 +1,24 @@
 //! Develops the light that was traced for a shot, and draws its overlay over it.
 
-use super::order::{Shot, Smoothing, TakenPicture};
+use super::order::{Shot, TakenPicture};
 use crate::pixels::Pixels;
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_paper::refraction::code_of;
 use brillianteer_picture::{Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
-use brillianteer_scene::{Background, BackgroundRef, Film};
+use brillianteer_scene::{Background, BackgroundRef, Film, Look, Smoothing};
 use std::sync::Arc;
 
 /// Returns the settings by which the render of a shot is developed; `fine` where there is time for glow.
 pub(super) fn manner(shot: &Shot, fine: bool) -> Develop {
     // Glow would stand out around an overlay, and it takes longer than the rest of a rough picture.
-    let has_glow = fine && shot.overlay.is_none() && shot.glow > 0.0;
-    let bloom = has_glow.then(|| Bloom { strength: shot.glow, ..Bloom::default() });
-    let background = match &shot.behind {
+    let has_glow = fine && shot.overlay.is_none() && shot.look.glow > 0.0;
+    let bloom = has_glow.then(|| Bloom { strength: shot.look.glow, ..Bloom::default() });
+    let background = match &shot.look.background {
         Some(BackgroundRef::Plain(background)) => *background,
         _ => Background::Transparent,
     };
-    Develop { exposure: shot.exposure, bloom, background, ..Develop::default() }
+    let Look { exposure, tone, .. } = shot.look;
+    Develop { exposure, tone, bloom, background, ..Develop::default() }
 }
 
 /// Develops the picture of a shot from its light; `fine` where the picture is refined and not rough. `unresolved` is
@@ -30,7 +31,7 @@ pub(super) fn developed(
 ) -> Result<TakenPicture, Stopped> {
     let mut rgba = develop(picture, &manner(shot, fine));
     // A refined picture has smooth edges, which FXAA would only blur.
-    if shot.smoothing == Smoothing::Fxaa && !fine {
+    if shot.look.smoothing == Smoothing::Fxaa && !fine {
         fxaa(&mut rgba, picture.width);
     }
     let size = [picture.width, picture.height];
@@ -42,7 +43,8 @@ pub(super) fn developed(
 /// Returns the picture of a map for a view: a picture of the codes of its places, with the map and its developed
 /// diffuse layer.
 pub(super) fn map_taken(shot: &Shot, map: RefractionMap) -> TakenPicture {
-    let map = map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() });
+    let Look { exposure, tone, .. } = shot.look;
+    let map = map.developed(&Develop { exposure, tone, bloom: None, ..Develop::default() });
     TakenPicture {
         image: codes(&map),
         unresolved: None,

@@ -17,9 +17,6 @@ use brillianteer_trace::ray::RayOptions;
 use glam::DVec2;
 use std::sync::Arc;
 
-/// The default distance of a backplate behind the middle, in girdle radii.
-pub const BEHIND: f64 = 3.0;
-
 /// The width of a map's background as a multiple of the picture's; also the default of the command line.
 pub const SPAN: f64 = 2.0;
 
@@ -50,7 +47,7 @@ pub fn coarser(film: &Film, factor: f64) -> Film {
 /// that all bodies are in front of it, however they are turned.
 pub fn hung(shot: &Shot) -> f64 {
     let farthest = shot.copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
-    shot.distance.max(farthest + shot.specimen.radius).max(shot.companions.reach())
+    shot.distance().max(farthest + shot.specimen.radius).max(shot.companions.reach())
 }
 
 /// Returns the quality of pictures in scopes at an effort; pictures and figures of equal quality share their beams.
@@ -73,19 +70,18 @@ impl Shot {
     fn surroundings(&self, behind: Option<Arc<Mipmap>>) -> Surroundings {
         let backplate = behind.map(|picture| HungPicture {
             picture,
-            span: self.behind.as_ref().map_or(1.0, BackgroundRef::span),
+            span: self.look.background.as_ref().map_or(1.0, BackgroundRef::span),
             distance: hung(self),
             frame: self.whole,
         });
-        let shows_light = self.behind == Some(BackgroundRef::Light);
-        let turn = self.light_turn.to_radians();
-        let is_upright = self.light_upright;
+        let usual = Surroundings::of(Arc::clone(self.light.at_hand()));
         Surroundings {
-            turn,
-            is_upright,
-            shows_light,
+            turn: self.look.light_turn.to_radians(),
+            is_upright: self.look.light_upright,
+            head: self.look.head.map_or(usual.head, f64::to_radians),
+            shows_light: self.look.background == Some(BackgroundRef::Light),
             backplate,
-            ..Surroundings::of(Arc::clone(self.light.at_hand()))
+            ..usual
         }
     }
 
@@ -97,13 +93,13 @@ impl Shot {
     pub fn light_job(&self, behind: Option<Arc<Mipmap>>, bands: u32, steps: Steps, quality: Quality) -> Job {
         let product = LightProduct {
             surroundings: self.surroundings(behind),
-            wavelengths: bands.min(self.bands),
+            wavelengths: bands.min(self.look.wavelengths),
             adapted: true,
-            strength: self.strength,
+            strength: self.look.strength,
             jitter: self.jitter,
             steps,
         };
-        let rays = RayOptions { most_bounces: self.bounces, ..quality.rays };
+        let rays = RayOptions { most_bounces: self.look.bounces, ..quality.rays };
         self.job(Product::Light(product), Quality { rays, ..quality })
     }
 
@@ -130,7 +126,7 @@ impl Shot {
             places: detail.places,
             shades: detail.shades,
             adapted: true,
-            strength: self.strength,
+            strength: self.look.strength,
         };
         let quality = Quality { samples: Some(detail.samples), ..Quality::of_pictures(true) };
         self.job(Product::RefractionMap(product), quality)
@@ -150,13 +146,13 @@ impl Shot {
 
     /// Returns whether a background hangs behind what a shot shows.
     pub fn hangs(&self, background: &BackgroundRef) -> bool {
-        self.behind.as_ref() == Some(background)
+        self.look.background.as_ref() == Some(background)
             || (self.shows.is_pane() && self.pane_background() == *background)
     }
 
     /// Returns the background of a shot whose picture needs one.
     pub fn pane_background(&self) -> BackgroundRef {
-        backdrop(self.behind.as_ref())
+        backdrop(self.look.background.as_ref())
     }
 
     /// Returns the job whose lit scene the overlay is drawn from: the shot as a render on this film.

@@ -25,13 +25,12 @@ mod undeveloped;
 mod worker;
 
 pub use order::{
-    Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Smoothing, SweepOrder, SweptPoint, TakenPicture,
-    Tilts, Which,
+    Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, SweepOrder, SweptPoint, TakenPicture, Tilts, Which,
 };
 
 pub use backgrounds::COARSE_FILM;
 pub use effort::{Effort, FINE, Grain};
-pub use jobs::{BEHIND, SPAN, backdrop, hung};
+pub use jobs::{SPAN, backdrop, hung};
 pub use mailbox::Wake;
 pub use refracted::survey;
 pub use render::ExportedRender;

@@ -33,7 +33,7 @@ impl Moment {
     /// Returns the moment of a shot that is traced on a film.
     pub fn of(shot: &Shot, film: Film) -> Self {
         let (specimen, copies) = (Arc::clone(&shot.specimen), shot.copies.clone());
-        let (companions, behind) = (shot.companions.clone(), shot.behind.clone());
+        let (companions, behind) = (shot.companions.clone(), shot.look.background.clone());
         Self { specimen, copies, companions, view: shot.view, film, behind }
     }
 
@@ -134,9 +134,9 @@ mod tests {
     use crate::model::framing_fit::FramingFit;
     use crate::model::motion::{Motion, WaveCache};
     use crate::shows::Shows;
-    use crate::studio::order::{Paper, Smoothing, Which};
+    use crate::studio::order::{Paper, Which};
     use brillianteer_paper::lighting;
-    use brillianteer_scene::{Copies, Glare, Projection};
+    use brillianteer_scene::{Copies, Glare, Look, Projection};
     use brillianteer_trace::environment::backplate_point;
 
     const SLOT: Slot = (0, Which::Present);
@@ -159,20 +159,10 @@ mod tests {
             film: eye.film([48, 40], &FramingFit::reaching(3.0)),
             whole: FramingFit::reaching(3.0).film([48, 40]),
             light: crate::studio::ShotLight::whole(lighting::load("dome").unwrap()),
-            bands: 3,
+            look: Look { wavelengths: 3, ..Look::default() },
             jitter: true,
-            behind: None,
-            distance: 3.0,
-            strength: 1.0,
-            glow: brillianteer_picture::Bloom::default().strength,
-            bounces: 64,
-            light_turn: 0.0,
-            light_upright: false,
             copies,
             companions: Companions::default(),
-            smoothing: Smoothing::None,
-            exposure: 0.0,
-            head: 0.0,
             overlay: None,
             liquid: Liquid::default(),
             paper: Paper::default(),
@@ -202,7 +192,7 @@ mod tests {
                     let hangs = |shot: &Shot, at: DVec2| {
                         let (from, way) =
                             ray::Camera::reaching(&shot.view, 3.0).ray(shot.film.image_from_pixels(at));
-                        backplate_point(&shot.view.basis(), shot.distance, from, way).unwrap()
+                        backplate_point(&shot.view.basis(), shot.distance(), from, way).unwrap()
                             / shot.whole.pixel
                     };
                     assert!(hangs(&now, at).distance(hangs(&before, moved.from)) < 1e-9);

@@ -7,10 +7,9 @@ use crate::shows::Shows;
 use brillianteer_base::{Failure, Watch};
 use brillianteer_measure::Figures;
 use brillianteer_picture::DrawnMarks;
-pub use brillianteer_picture::Smoothing;
 use brillianteer_picture::{Inks, Overlay, RefractionMap};
 use brillianteer_render::{Sweep, SweepError, SweptStone};
-use brillianteer_scene::{BackgroundRef, Companions, Film, Glare, Pose, Specimen, View};
+use brillianteer_scene::{BackgroundRef, Companions, Film, Glare, Look, Pose, Specimen, View};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -47,36 +46,16 @@ pub struct Shot {
     pub film: Film,
     /// The light.
     pub light: ShotLight,
-    /// The exposure of a render, in stops.
-    pub exposure: f64,
-    /// The number of bands of wavelengths of a render, at its finest.
-    pub bands: u32,
+    /// What it is made with; renders show its background, and scopes have its head.
+    pub look: Look,
     /// True where each pass of a render takes different wavelengths.
     pub jitter: bool,
-    /// The background behind the stone, if any.
-    pub behind: Option<BackgroundRef>,
-    /// The distance of the backplate behind the middle of a render, in girdle radii.
-    pub distance: f64,
     /// The film without zoom and displacement, which the backplate fills.
     pub whole: Film,
-    /// The strength of refraction, 0 to 1: the part of the turn by refraction that light follows; 1 is physics.
-    pub strength: f64,
-    /// The part of the light of sparkles that spreads around them in a render, 0 to 1.
-    pub glow: f64,
-    /// The greatest number of bounces of light in a render.
-    pub bounces: u32,
-    /// The angle by which the light is turned about its axis, degrees.
-    pub light_turn: f64,
-    /// True where the light's axis points up in the picture, false where it points to the eye.
-    pub light_upright: bool,
     /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
     pub copies: Vec<Pose>,
     /// The companions of the copies in a render, in girdle radii.
     pub companions: Companions,
-    /// The method that smooths a render's edges.
-    pub smoothing: Smoothing,
-    /// The half angle of the observer's head in scopes, in degrees; 0 for no head.
-    pub head: f64,
     /// The overlay that is drawn over the picture.
     pub overlay: Option<Overlay>,
     /// The pane of liquid glass.
@@ -103,29 +82,52 @@ impl Default for Paper {
     }
 }
 
-impl PartialEq for Shot {
-    /// Returns whether both shots give the same picture. Stones are compared by pointer, because they are replaced and never
-    /// changed.
+/// All that the picture of a shot depends on: equal subjects give the same picture.
+#[derive(PartialEq)]
+enum Subject<'a> {
+    /// The stone under light.
+    Lit { stone: Same<'a>, shows: Shows, overlay: Option<Overlay>, sight: (View, Film, f64), lit: Lit<'a> },
+    /// The stone in a scope.
+    Scope { stone: Same<'a>, shows: Shows, overlay: Option<Overlay>, sight: (View, Film), read: ScopeReading },
+    /// A drawing of its facets.
+    Drawing { stone: Same<'a>, size: [u32; 2], title: &'a str, paper: Paper, marks: &'a DrawnMarks },
+    /// A drawing that the window makes itself.
+    Profile { stone: Same<'a>, size: [u32; 2] },
+    /// A pane before its background.
+    Pane { shows: Shows, size: [u32; 2], liquid: Liquid, background: Option<&'a BackgroundRef> },
+}
+
+/// A stone, which is compared by pointer, because stones are replaced and never changed.
+struct Same<'a>(&'a Arc<Specimen>);
+
+impl PartialEq for Same<'_> {
     fn eq(&self, other: &Self) -> bool {
-        if self.shows.is_pane() {
-            let glass = |shot: &Self| (shot.shows, shot.film.size, shot.liquid);
-            return glass(self) == glass(other) && self.behind == other.behind;
-        }
-        let by_light = self.is_under_light();
-        let seen = self.shows != Shows::Diagram;
-        let scoped = self.shows.scoped();
-        let takes_head = scoped.as_ref().is_some_and(|scoped| scoped.takes_head);
-        let has_glare = scoped.is_some() && !self.strongest;
-        Arc::ptr_eq(&self.specimen, &other.specimen)
-            && (self.shows, self.overlay, self.film.size) == (other.shows, other.overlay, other.film.size)
-            && (seen || (self.paper == other.paper && self.marks == other.marks))
-            && (!seen || (self.view, self.film) == (other.view, other.film))
-            && (scoped.is_none() || self.strongest == other.strongest)
-            && (!takes_head || self.head == other.head)
-            && (!has_glare || self.glare == other.glare)
-            && (seen || self.title == other.title)
-            && (!by_light || (self.light == other.light && self.manner() == other.manner()))
-            && (!by_light || (&self.copies, &self.companions) == (&other.copies, &other.companions))
+        Arc::ptr_eq(self.0, other.0)
+    }
+}
+
+/// What a picture under light depends on, beside the stone and the view.
+#[derive(PartialEq)]
+struct Lit<'a> {
+    light: &'a ShotLight,
+    look: Cow<'a, Look>,
+    jitter: bool,
+    copies: &'a [Pose],
+    companions: &'a Companions,
+}
+
+/// What is read of the light in a scope; `None` where the picture does not depend on it.
+#[derive(PartialEq)]
+struct ScopeReading {
+    strongest: bool,
+    glare: Option<Glare>,
+    head: Option<f64>,
+}
+
+impl PartialEq for Shot {
+    /// Returns whether both shots give the same picture.
+    fn eq(&self, other: &Self) -> bool {
+        self.subject() == other.subject()
     }
 }
 
@@ -151,19 +153,69 @@ impl Shot {
         Ok(Cow::Owned(Self { light: self.light.finished(watch)?, ..self.clone() }))
     }
 
-    /// Returns the settings that only renders and refraction maps depend on, with fixed values for those that maps
-    /// ignore.
-    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 7], Smoothing) {
-        let bounces = f64::from(self.bounces);
-        let upright = f64::from(u8::from(self.light_upright));
-        let numbers =
-            [self.distance, self.whole.pixel, self.light_turn, upright, self.strength, bounces, self.glow];
-        if self.shows == Shows::Refraction {
-            let numbers = [numbers[0], numbers[1], numbers[2], upright, self.strength, 0.0, 0.0];
-            return (self.exposure, 0, false, None, numbers, Smoothing::None);
+    /// Returns all that the picture of the shot depends on.
+    fn subject(&self) -> Subject<'_> {
+        let Self { shows, overlay, film, view, .. } = *self;
+        let (stone, size) = (Same(&self.specimen), film.size);
+        match shows {
+            Shows::Render => {
+                let look = Cow::Borrowed(&self.look);
+                Subject::Lit {
+                    stone,
+                    shows,
+                    overlay,
+                    sight: (view, film, self.whole.pixel),
+                    lit: self.lit(look, self.jitter),
+                }
+            }
+            Shows::Refraction => {
+                let look = Cow::Owned(self.look_of_maps());
+                Subject::Lit {
+                    stone,
+                    shows,
+                    overlay,
+                    sight: (view, film, self.whole.pixel),
+                    lit: self.lit(look, false),
+                }
+            }
+            Shows::Aset
+            | Shows::AsetWhite
+            | Shows::Aset40
+            | Shows::IdealScope
+            | Shows::Hearts
+            | Shows::Arrows => {
+                let takes_head = shows.scoped().is_some_and(|scoped| scoped.takes_head);
+                let read = ScopeReading {
+                    strongest: self.strongest,
+                    glare: (!self.strongest).then_some(self.glare),
+                    head: self.look.head.filter(|_| takes_head),
+                };
+                Subject::Scope { stone, shows, overlay, sight: (view, film), read }
+            }
+            Shows::Diagram => {
+                Subject::Drawing { stone, size, title: &self.title, paper: self.paper, marks: &self.marks }
+            }
+            Shows::Profile => Subject::Profile { stone, size },
+            Shows::LiquidGlass | Shows::TracedPane => {
+                let background = self.look.background.as_ref();
+                Subject::Pane { shows, size, liquid: self.liquid, background }
+            }
         }
-        let Self { exposure, bands, jitter, smoothing, .. } = *self;
-        (exposure, bands, jitter, self.behind.as_ref(), numbers, smoothing)
+    }
+
+    fn lit<'a>(&'a self, look: Cow<'a, Look>, jitter: bool) -> Lit<'a> {
+        Lit { light: &self.light, look, jitter, copies: &self.copies, companions: &self.companions }
+    }
+
+    /// Returns the look of a refraction map, with the usual values for all that maps ignore.
+    fn look_of_maps(&self) -> Look {
+        let Look { exposure, tone, light_turn, light_upright, head, background_mm, strength, .. } = self.look;
+        Look { exposure, tone, light_turn, light_upright, head, background_mm, strength, ..Look::default() }
+    }
+
+    /// Returns the distance of the backplate behind the middle of a render, in girdle radii.
+    pub fn distance(&self) -> f64 {
+        self.look.distance(self.specimen.unit_mm())
     }
 }
 

@@ -82,5 +82,13 @@ pub fn survey(
     let shot = &*shot.under_whole_light(watch)?;
     let job = shot.map_job(&MapDetail { bands, places, shades: 16, samples: 4 });
     let (map, carried) = run(&mut Renderer::default(), &job, watch)?.map()?;
-    Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))
+    Ok((
+        map.developed(&Develop {
+            exposure: shot.look.exposure,
+            tone: shot.look.tone,
+            bloom: None,
+            ..Develop::default()
+        }),
+        carried,
+    ))
 }

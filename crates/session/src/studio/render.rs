@@ -4,7 +4,7 @@ use super::develop::{developed, manner};
 use super::effort::{Effort, FINE, Grain};
 use super::jobs::coarser;
 use super::motion::Moment;
-use super::order::{Shot, Slot, Smoothing, TakenPicture};
+use super::order::{Shot, Slot, TakenPicture};
 use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
 use crate::pixels::Pixels;
@@ -13,7 +13,7 @@ use brillianteer_base::{Failure, Watch, unwatched};
 use brillianteer_files::WriteError;
 use brillianteer_paper::{Finish, StoredLight};
 use brillianteer_render::{Job, Partial, Quality, RenderError, Steps};
-use brillianteer_scene::{BackgroundRef, Mipmap};
+use brillianteer_scene::{BackgroundRef, Mipmap, Smoothing};
 use brillianteer_trace::places::place_in_pixel;
 use glam::DVec2;
 use std::path::Path;
@@ -27,7 +27,7 @@ impl ShotTracer {
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), Failure> {
-        let moving = match shot.smoothing {
+        let moving = match shot.look.smoothing {
             Smoothing::Temporal { newest } if !effort.is_refined() => Some(newest),
             _ => None,
         };
@@ -79,7 +79,7 @@ impl ShotTracer {
         watch: Watch,
     ) -> Result<Job, Failure> {
         let refinement = effort.refinement;
-        let behind = self.picture_behind(shot.behind.as_ref(), effort, watch)?;
+        let behind = self.picture_behind(shot.look.background.as_ref(), effort, watch)?;
         let mut quality = Quality::of_pictures(true);
         quality.beams.unresolved = refinement.map_or(effort.unresolved, |r| r.unresolved);
         quality.samples = refinement.map(|r| r.samples);
@@ -111,8 +111,8 @@ impl ShotTracer {
     /// the light of a large picture, or where `watch` asks to stop.
     pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, Failure> {
         let shot = &*shot.under_whole_light(watch)?;
-        let behind = self.picture_behind(shot.behind.as_ref(), &FINE, watch)?;
-        let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
+        let behind = self.picture_behind(shot.look.background.as_ref(), &FINE, watch)?;
+        let job = shot.light_job(behind, shot.look.wavelengths, Steps::Strips, Quality::of_pictures(true));
         let mut light = StoredLight::new(job.film.size)?;
         let rendered = self.renderer.run(&job, watch, &mut |part| match part {
             Partial::LightRow { y, pixels } => light.push(y, pixels).map_err(Failure::from),

@@ -76,7 +76,7 @@ impl ShotTracer {
 
     fn scoped(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, Failure> {
         let Some(scoped) = shot.shows.scoped() else { return Err(Failure::Input("no scope".into())) };
-        let scope = scoped.with_head(shot.head);
+        let scope = scoped.with_head(shot.look.head_of_scopes());
         let palette = Palette::of(&scope);
         let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
         let is_slow = self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow();
@@ -145,14 +145,15 @@ mod tests {
     use crate::model::eye::Eye;
     use crate::model::framing_fit::FramingFit;
     use crate::studio::effort::{Grain, Refinement};
-    use crate::studio::jobs::BEHIND;
-    use crate::studio::order::{Paper, Smoothing, Which};
+    use crate::studio::order::{Paper, Which};
     use crate::studio::{ShotLight, survey};
     use brillianteer_base::unwatched;
     use brillianteer_paper::lighting;
     use brillianteer_picture::{Bloom, Develop, develop, fxaa};
     use brillianteer_render::{Quality, Steps};
-    use brillianteer_scene::{Background, BackgroundRef, Companions, Glare, Pose, Projection, View};
+    use brillianteer_scene::{
+        Background, BackgroundRef, Companions, Glare, Look, Pose, Projection, Smoothing, View,
+    };
     use brillianteer_trace::environment::Lighting;
     use brillianteer_trace::gpu::Gpu;
     use glam::DVec2;
@@ -176,24 +177,21 @@ mod tests {
             film: eye.film([56, 40], &FramingFit::reaching(1.0)),
             whole: FramingFit::reaching(1.0).film([56, 40]),
             light: ShotLight::whole(lighting::load("dome").unwrap()),
-            bands: 16,
+            look: Look { wavelengths: 16, ..Look::default() },
             jitter: true,
-            behind: None,
-            strength: 1.0,
-            glow: brillianteer_picture::Bloom::default().strength,
-            bounces: 64,
-            light_turn: 0.0,
-            light_upright: false,
             copies: vec![Pose::STILL],
             companions: Companions::default(),
-            distance: BEHIND,
-            smoothing: Smoothing::None,
-            exposure: 0.0,
-            head: 0.0,
             overlay: None,
             liquid: Liquid::default(),
             paper: Paper::default(),
         }
+    }
+
+    /// Returns a shot whose look is changed.
+    fn looking(shot: Shot, change: impl FnOnce(&mut Look)) -> Shot {
+        let mut look = shot.look.clone();
+        change(&mut look);
+        Shot { look, ..shot }
     }
 
     #[test]
@@ -203,7 +201,7 @@ mod tests {
         assert_eq!(planned(&shot(Shows::Render, Some(8.0))), "rays", "a perspective");
         let before = |name: &str| {
             let behind = BackgroundRef::read(name, Path::new("")).unwrap();
-            planned(&Shot { behind: Some(behind), ..shot(Shows::Render, None) })
+            planned(&looking(shot(Shows::Render, None), |look| look.background = Some(behind)))
         };
         assert_eq!(before("page"), "rays", "something hangs behind");
         assert_eq!(["light", "white"].map(before), ["beams"; 2], "nothing hangs behind");
@@ -211,11 +209,11 @@ mod tests {
 
     #[test]
     fn an_exported_render_is_developed_as_on_the_command_line() {
-        let shot = Shot { exposure: -2.0, ..shot(Shows::Render, Some(8.0)) };
+        let shot = looking(shot(Shows::Render, Some(8.0)), |look| look.exposure = -2.0);
         let mut exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
         let exported = exported.image(&shot, &unwatched).unwrap();
         let steps = Steps::Passes { first: 0, hidden: 0 };
-        let job = shot.light_job(None, shot.bands, steps, Quality::of_pictures(true));
+        let job = shot.light_job(None, shot.look.wavelengths, steps, Quality::of_pictures(true));
         let rendered = Renderer::default().run(&job, &unwatched, &mut |_| Ok::<_, RenderError>(())).unwrap();
         let background = Background::Transparent;
         let manner =
@@ -257,7 +255,8 @@ mod tests {
         let [whole, map] = ["dome", "ring"].map(|name| lighting::load(name).unwrap());
         let coarse = ShotLight::coarse(Lighting { map: map.map, ..whole.clone() });
         let small = shot(Shows::Render, None);
-        let small = Shot { film: coarser(&small.film, 2.0), bands: 3, ..small };
+        let small = Shot { film: coarser(&small.film, 2.0), ..small };
+        let small = looking(small, |look| look.wavelengths = 3);
         let [whole, coarse] = [ShotLight::whole(whole), coarse].map(|light| Shot { light, ..small.clone() });
         let image = |shot: &Shot, refinement| taken(&mut ShotTracer::default(), shot, 3, refinement).image;
         assert_ne!(image(&coarse, None), image(&whole, None), "a rough picture takes what is at hand");
@@ -291,7 +290,8 @@ mod tests {
         let mut card = ShotTracer::by(Card::Open(gpu));
         let refinement = Some(Refinement { samples: 16, after: 0, unresolved: 5e-3 });
         let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
-        let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
+        let mixed =
+            looking(shot(Shows::Render, None), |look| (look.background, look.strength) = (Some(checks), 0.2));
         for (shot, most) in [
             (shot(Shows::Aset, Some(8.0)), 2e-3),
             (shot(Shows::Render, Some(8.0)), 4e-3),
@@ -320,27 +320,31 @@ mod tests {
     }
 
     #[test]
-    fn strongest_exits_and_the_head_make_another_picture_only_in_scopes_that_show_them() {
+    fn strongest_exits_make_another_picture_only_in_scopes_and_the_head_where_it_blocks_light() {
         for (shows, is_same) in [
-            (Shows::Render, [true; 2]),
-            (Shows::Refraction, [true; 2]),
+            (Shows::Render, [true, false]),
+            (Shows::Refraction, [true, false]),
             (Shows::Diagram, [true; 2]),
             (Shows::Hearts, [false, true]),
             (Shows::Aset, [false; 2]),
         ] {
             let shot = shot(shows, None);
-            let [strongest, head] =
-                [Shot { strongest: true, ..shot.clone() }, Shot { head: 10.0, ..shot.clone() }];
+            let strongest = Shot { strongest: true, ..shot.clone() };
+            let head = looking(shot.clone(), |look| look.head = Some(10.0));
             assert_eq!([shot == strongest, shot == head], is_same, "{shows:?}");
             let is_light = matches!(shows, Shows::Render | Shows::Refraction);
-            assert_eq!([shot.has_light_of(&strongest), shot.has_light_of(&head)], [is_light; 2], "{shows:?}");
+            assert_eq!(
+                [shot.has_light_of(&strongest), shot.has_light_of(&head)],
+                [is_light, false],
+                "{shows:?}"
+            );
         }
     }
 
     #[test]
     fn fxaa_smooths_rough_renders_and_leaves_refined_ones_as_they_are() {
         let plain = shot(Shows::Render, None);
-        let smooth = Shot { smoothing: Smoothing::Fxaa, ..plain.clone() };
+        let smooth = looking(plain.clone(), |look| look.smoothing = Smoothing::Fxaa);
         let mut camera = ShotTracer::default();
         let mut image = |shot: &Shot, refinement| taken(&mut camera, shot, 4, refinement).image;
         assert_ne!(image(&plain, None), image(&smooth, None), "a rough picture");
@@ -352,11 +356,11 @@ mod tests {
         assert_ne!(refined.rgba, blurred, "FXAA would change it");
         // Light that is developed again is that of a refined picture.
         let slot = (0, Which::Present);
-        let brighter = Shot { exposure: 1.0, ..smooth };
+        let brighter = looking(smooth, |look| look.exposure = 1.0);
         let again = camera.develop_again(slot, &brighter, &unwatched);
         let light = camera.kept.get(&slot).map(|(_, light)| light);
         let (Some(Ok(again)), Some(TracedLight::Render { picture, .. })) = (again, light) else { panic!() };
-        let unsmoothed = Shot { smoothing: Smoothing::None, ..brighter };
+        let unsmoothed = looking(brighter.clone(), |look| look.smoothing = Smoothing::None);
         let expected = developed(&unsmoothed, (picture, true), (0.0, ""), &unwatched).unwrap();
         assert_eq!(again.image, expected.image, "developed again");
     }

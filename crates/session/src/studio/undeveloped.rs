@@ -4,6 +4,7 @@
 use super::order::{Shot, Slot};
 use crate::shows::Shows;
 use brillianteer_picture::{Linear, RefractionMap};
+use brillianteer_scene::Look;
 use std::collections::HashMap;
 
 /// The last shot of each slot, with its light before it was developed.
@@ -25,11 +26,11 @@ pub enum TracedLight {
 }
 
 impl Shot {
-    /// Returns whether this shot has the light of another: the two may differ only in exposure, overlay and glow.
+    /// Returns whether this shot has the light of another: the two may differ only in exposure, tone, overlay and glow.
     pub fn has_light_of(&self, other: &Self) -> bool {
         let is_kept = matches!(self.shows, Shows::Render | Shows::Refraction);
-        is_kept
-            && Self { exposure: other.exposure, overlay: other.overlay, glow: other.glow, ..self.clone() }
-                == *other
+        let Look { exposure, glow, tone, .. } = other.look;
+        let look = Look { exposure, glow, tone, ..self.look.clone() };
+        is_kept && Self { look, overlay: other.overlay, ..self.clone() } == *other
     }
 }

@@ -2,7 +2,7 @@
 
 use super::effort::{Effort, FAIR, FINE, FINE_BY_CARD, HALFWAY, SHARP};
 use super::mailbox::{Mailbox, Wake};
-use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
+use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, TakenPicture, Which};
 use super::pace::Pace;
 use super::sweeping::SweptSoFar;
 use super::take::ShotTracer;
@@ -10,7 +10,7 @@ use crate::shows::Shows;
 use brillianteer_base::{Failure, Stopped, Watch};
 use brillianteer_measure::{Bounds, Figures, LATTICE};
 use brillianteer_render::{Card, Job, RenderError, Rendered};
-use brillianteer_scene::View;
+use brillianteer_scene::{Smoothing, View};
 use brillianteer_trace::gpu::Gpu;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -178,7 +178,7 @@ impl Worker {
         let fine = if has_card { FINE_BY_CARD } else { FINE };
         for (slot, shot) in &turn.order.shots {
             // Pictures of a temporal history all have one size.
-            let is_laid = matches!(shot.smoothing, Smoothing::Temporal { .. });
+            let is_laid = matches!(shot.look.smoothing, Smoothing::Temporal { .. });
             if !is_laid && self.camera.is_slow_render(shot) && self.is_wanted(slot, shot, Grade::Fair) {
                 self.picture((*slot, shot), Grade::Rough, &HALFWAY, &watch)?;
             }

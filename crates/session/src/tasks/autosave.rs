@@ -232,6 +232,7 @@ mod tests {
     use crate::model::render_settings::RenderSettings;
     use crate::model::work::Work;
     use brillianteer_files::design_file::DesignFormat;
+    use brillianteer_scene::Look;
     use std::sync::Arc;
 
     /// Returns work without a scene around it.
@@ -250,9 +251,12 @@ mod tests {
         let around = KeptScene {
             copies,
             settings: RenderSettings {
-                background: Some("page".into()),
-                background_mm: Some(12.5),
-                strength: 0.2,
+                look: Look {
+                    background: Some("page".into()),
+                    background_mm: Some(12.5),
+                    strength: 0.2,
+                    ..Look::default()
+                },
                 ..RenderSettings::default()
             },
             ..KeptScene::default()

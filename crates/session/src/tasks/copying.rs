@@ -61,7 +61,8 @@ mod tests {
         let view = View { projection, ..model.workspace.eye.view(None) };
         let mut orders = Orders { model: &model, waves: &mut WaveCache::default(), paper: Paper::default() };
         let film = model.fit(Shows::Render, &view).film([24; 2]);
-        let shot = Shot { film, bands: 3, ..orders.render(view) };
+        let mut shot = Shot { film, ..orders.render(view) };
+        shot.look.wavelengths = 3;
         assert!(ShotTracer::default().is_slow_render(&shot));
         let mut exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
         let exported = exported.image(&shot, &unwatched).unwrap();

@@ -114,9 +114,10 @@ impl ExportPlan {
         );
         refraction::write_places(maps, &map, Coding::Tiles, &description)?;
         refraction::write_diffuse(diffuse, &map, &description)?;
-        let behind = self.shot.behind.as_ref().map(brillianteer_paper::background::bytes).transpose()?;
+        let behind =
+            self.shot.look.background.as_ref().map(brillianteer_paper::background::bytes).transpose()?;
         let background = behind.flatten().filter(|bytes| takes(bytes));
-        let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);
+        let ground = self.shot.look.background.as_ref().map_or_else(String::new, BackgroundRef::title);
         let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
         Ok(write_page(page, &map, &Page { title, description: &description, span: SPAN, background })?)
     }
@@ -129,7 +130,7 @@ impl ExportPlan {
             "{}: render; light {}{}; {tracer}, unresolved {unresolved:.2e}",
             self.shot.title,
             self.shot.light.name(),
-            mixture_note(self.shot.strength)
+            mixture_note(self.shot.look.strength)
         );
         render.write(&shot, path, &description, watch)
     }

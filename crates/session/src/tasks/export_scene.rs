@@ -9,7 +9,7 @@ use brillianteer_files::mesh::write_shaded;
 use brillianteer_files::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, RingEntry, SceneFile};
 use brillianteer_files::{WriteError, cut_file, write};
 use brillianteer_scene::{
-    BackgroundRef, Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen,
+    BackgroundRef, Companion, Companions, Look, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen,
 };
 use glam::DVec3;
 use std::path::{Path, PathBuf};
@@ -58,20 +58,19 @@ impl SceneOut {
         let placed = |(metal, name): (&&MetalInstance, &String)| {
             MetalEntry::placed(name, (metal.metal, metal.roughness), &in_mm(metal))
         };
-        let is_picture = shot.behind.as_ref().is_some_and(BackgroundRef::is_picture);
+        let is_picture = shot.look.background.as_ref().is_some_and(BackgroundRef::is_picture);
+        let look = Look {
+            light: plan.light.clone(),
+            background_mm: is_picture.then(|| (hung(shot) + middle.z) * unit_mm),
+            ..shot.look.clone()
+        };
         let scene = SceneFile {
             name: shot.title.clone(),
-            light: Some(plan.light.clone()),
-            light_turn: shot.light_turn,
-            light_upright: shot.light_upright,
+            look,
             layout: None,
             gap_mm: DEFAULT_GAP_MM,
-            background: shot.behind.clone(),
-            background_distance_mm: is_picture.then(|| (hung(shot) + middle.z) * unit_mm),
-            strength: shot.strength,
             movement: plan.movement,
             angle_of_view: angle_of_view(shot, corners(shot, &poses, &companions), middle),
-            exposure: shot.exposure,
             stones: own.chain(others).collect(),
             metals: meshes.iter().zip(metals).map(placed).collect(),
             ring: ring(plan, cut_of, in_mm),

@@ -10,7 +10,6 @@ use crate::model::compare::Compared;
 use crate::model::dialog::{AboutForm, Dialog, Then};
 use crate::model::eye::Eye;
 use crate::model::meet_pick::MeetPick;
-use crate::model::render_settings::SettingChange;
 use crate::model::task::{Task, WindowTask};
 use crate::model::work::Work;
 use crate::model::workspace::PaneLayout;
@@ -183,11 +182,11 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
 fn another_light(model: &mut Model) {
     model.session.lights_drawn += 1;
     let [place, turn] = [0, 1].map(|k| scattered(2 * model.session.lights_drawn + k));
-    let settings = &mut model.document.work.settings;
-    let others: Vec<&str> = LIGHTS.into_iter().filter(|name| *name != settings.light).collect();
-    let name = others[(place * others.len() as f64) as usize % others.len()];
-    settings.light_turn = (360.0 * turn - 180.0).round();
-    edits::edit(model, Edit::Setting(SettingChange::Light(name.to_owned())));
+    let mut look = model.document.work.settings.look.clone();
+    let others: Vec<&str> = LIGHTS.into_iter().filter(|name| *name != look.light).collect();
+    others[(place * others.len() as f64) as usize % others.len()].clone_into(&mut look.light);
+    look.light_turn = (360.0 * turn - 180.0).round();
+    edits::edit(model, Edit::Look(Box::new(look)));
 }
 
 /// Carries out a command that changes only the views.
@@ -227,7 +226,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Split => workspace.is_split = !workspace.is_split,
         Command::NoCompare => compare_no_more(model),
         Command::Play => session.motion.is_on = !session.motion.is_on,
-        Command::NextBehind => document.work.settings.next_background(),
+        Command::NextBehind => document.work.settings.look.next_background(),
         Command::Panels => workspace.hides_panels = !workspace.hides_panels,
         Command::BenchMode => workspace.cutting.is_open = !workspace.cutting.is_open,
         Command::Audit => workspace.shows_audit = !workspace.shows_audit,

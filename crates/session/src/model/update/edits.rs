@@ -45,10 +45,11 @@ pub fn edit(model: &mut Model, edit: Edit) {
             note_meet_faults(model);
         }
         Edit::Diameter(mm) => work.design.diameter_mm = mm,
-        Edit::Setting(change) => work.settings.change(change),
+        Edit::Look(look) => work.settings.look = *look,
+        Edit::Liquid(liquid) => work.settings.liquid = *liquid,
         Edit::ResetLight => {
-            let first = model.document.first_settings().clone();
-            model.document.work.settings.reset_light(&first);
+            let first = model.document.first_settings().look.clone();
+            model.document.work.settings.look.reset_light(&first);
         }
         Edit::LayOut(count) => lay_out(model, count),
         Edit::Movement(movement) => work.copies.movement = movement,

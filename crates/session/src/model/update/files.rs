@@ -5,14 +5,13 @@ use super::begin::{
 };
 use super::{safe, searching};
 use crate::model::Model;
-use crate::model::action::{Edit, FileAction};
+use crate::model::action::FileAction;
 use crate::model::choosing::{Choice, Purpose, Question};
 use crate::model::compare::Compared;
 use crate::model::dialog::{Dialog, PathForm, Then};
 use crate::model::document::Document;
 use crate::model::opening::{FileRequest, OpenedFile, Opening, OpeningPurpose};
 use crate::model::recovery::RecoveredWork;
-use crate::model::render_settings::SettingChange;
 use crate::model::saving::SavedDesign;
 use crate::model::session::Session;
 use crate::model::task::{Task, WindowTask};
@@ -20,6 +19,7 @@ use crate::model::work::Work;
 use brillianteer_base::Failure;
 use brillianteer_files::design_file::DesignFormat;
 use brillianteer_files::mesh_options::MeshOptions;
+use brillianteer_scene::BackgroundRef;
 use std::path::{Path, PathBuf};
 
 /// The warning about a mesh whose table may face another way.
@@ -78,7 +78,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
 pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
     open_read(model, tasks);
     let light = &mut model.session.light;
-    let name = &model.document.work.settings.light;
+    let name = &model.document.work.settings.look.light;
     // A light that is being loaded takes the place of the last one, even where that one is wanted again.
     if light.loading.as_ref().unwrap_or(&light.tried) != name {
         light.loading = Some(name.clone());
@@ -237,12 +237,12 @@ pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, docume
         Purpose::SaveAs => save_as(model, tasks, path),
         Purpose::Compare => open(model, tasks, path, OpeningPurpose::Beside),
         Purpose::Light => {
-            let light = SettingChange::Light(path.display().to_string());
-            super::edits::edit(model, Edit::Setting(light));
+            let edit = model.look_with(|look| look.light = path.display().to_string());
+            super::edits::edit(model, edit);
         }
         Purpose::Behind => {
-            let background = SettingChange::Background(Some(path.display().to_string()));
-            super::edits::edit(model, Edit::Setting(background));
+            let edit = model.look_with(|look| look.background = Some(BackgroundRef::Photo(path)));
+            super::edits::edit(model, edit);
         }
         Purpose::Goal => tasks.push(Task::ReadGoal(path)),
         Purpose::SaveGoal => searching::save_goal(model, tasks, path),

@@ -12,7 +12,6 @@ use crate::model::document::Document;
 use crate::model::exporting::ExportEvent;
 use crate::model::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use crate::model::plan::export_plan;
-use crate::model::render_settings::{FIRST_LIGHT, SettingChange};
 use crate::model::saving::Stamp;
 use crate::model::task::WindowTask;
 use crate::model::workspace::Workspace;
@@ -24,6 +23,7 @@ use brillianteer_base::Failure;
 use brillianteer_files::cut_file;
 use brillianteer_files::mesh_options::MeshOptions;
 use brillianteer_paper::lighting;
+use brillianteer_scene::{Look, USUAL_LIGHT};
 use std::path::{Path, PathBuf};
 
 /// An editor without a window.
@@ -32,6 +32,12 @@ struct Bench {
 }
 
 impl Bench {
+    /// Changes what renders are made with, as a step of undo.
+    fn change_look(&mut self, change: impl FnOnce(&mut Look)) -> Vec<Task> {
+        let edit = self.model.look_with(change);
+        self.act(edit)
+    }
+
     fn new() -> Self {
         let mut model = Model::new(Workspace::default()).unwrap();
         model.session.safe.is_on = true;
@@ -104,11 +110,11 @@ fn all_edits_of_a_gesture_are_one_step_that_is_undone_and_done_again() {
         bench.end_frame(true);
     }
     bench.end_frame(false);
-    bench.act(Edit::Setting(SettingChange::Exposure(1.0)));
+    bench.change_look(|look| look.exposure = 1.0);
     bench.end_frame(false);
     let last = bench.model.document.work.clone();
     bench.act(Command::Undo);
-    assert_eq!((bench.diameter(), bench.model.document.work.settings.exposure), (6.8, 0.0));
+    assert_eq!((bench.diameter(), bench.model.document.work.settings.look.exposure), (6.8, 0.0));
     bench.act(Command::Undo);
     assert_eq!(bench.model.document.work, first);
     assert!(!bench.model.is_possible(Command::Undo) && bench.model.is_possible(Command::Redo));
@@ -322,7 +328,7 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     let mut bench = Bench::new();
     let before = bench.model.session.light.at_hand.clone();
     let is_load = |task: &Task| matches!(task, Task::LoadLight(name) if name == "nowhere");
-    assert!(has(&bench.act(Edit::Setting(SettingChange::Light("nowhere".to_owned()))), is_load));
+    assert!(has(&bench.change_look(|look| look.light = "nowhere".to_owned()), is_load));
     assert!(bench.end_frame(false).iter().all(|task| !is_load(task)), "it is being loaded");
     bench.act(Computed::Light("nowhere".to_owned(), Err(Failure::Input("a fault".to_owned()))));
     assert!(bench.model.session.light.loading.is_none());
@@ -330,10 +336,10 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("a fault; "));
     assert!(!has(&bench.end_frame(false), is_load), "it is not loaded again and again");
     // Exports name the light that is shown.
-    assert_eq!(export_plan(&bench.model).light, Path::new(FIRST_LIGHT));
-    bench.act(Edit::Setting(SettingChange::Light("dome".to_owned())));
+    assert_eq!(export_plan(&bench.model).light, USUAL_LIGHT);
+    bench.change_look(|look| look.light = "dome".to_owned());
     bench.act(Computed::Light("dome".to_owned(), Ok(before)));
-    assert_eq!(export_plan(&bench.model).light, Path::new("dome"));
+    assert_eq!(export_plan(&bench.model).light, "dome");
 }
 
 #[test]
@@ -342,7 +348,7 @@ fn a_coarse_light_is_shown_until_the_whole_one_comes_and_another_light_takes_its
     let lighting = || lighting::load("white").unwrap();
     let loads =
         |tasks: &[Task], light: &str| has(tasks, |t| matches!(t, Task::LoadLight(name) if name == light));
-    assert!(loads(&bench.act(Edit::Setting(SettingChange::Light("sunset".to_owned()))), "sunset"));
+    assert!(loads(&bench.change_look(|look| look.light = "sunset".to_owned()), "sunset"));
     let coarse = ShotLight::coarse(lighting());
     bench.act(Computed::Light("sunset".to_owned(), Ok(coarse.clone())));
     let light = bench.model.session.light.clone();
@@ -358,9 +364,9 @@ fn a_coarse_light_is_shown_until_the_whole_one_comes_and_another_light_takes_its
             && !export_plan(&bench.model).shot.waits_for_light()
     );
     // The light before is wanted again while another is being loaded.
-    bench.act(Edit::Setting(SettingChange::Light("city".to_owned())));
+    bench.change_look(|look| look.light = "city".to_owned());
     bench.act(Computed::Light("city".to_owned(), Ok(coarse)));
-    assert!(loads(&bench.act(Edit::Setting(SettingChange::Light("sunset".to_owned()))), "sunset"));
+    assert!(loads(&bench.change_look(|look| look.light = "sunset".to_owned()), "sunset"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The methods that smooth the edges of renders, besides many samples of each pixel.
+//! The methods that smooth the edges of renders, besides many samples of each pixel: `brillianteer-picture` carries them out.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -11,10 +11,9 @@ pub enum Smoothing {
     /// No smoothing.
     #[default]
     None,
-    /// [`fxaa`](super::fxaa()) on the finished picture.
+    /// FXAA on the finished picture.
     Fxaa,
-    /// Temporal antialiasing: earlier pictures are moved along with the bodies and blended in
-    /// ([`TemporalHistory`](super::TemporalHistory)).
+    /// Temporal antialiasing: earlier pictures are moved along with the bodies and blended in.
     Temporal {
         /// The share of the newest picture, within [`Smoothing::NEWEST`].
         newest: f64,
