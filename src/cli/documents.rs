@@ -158,6 +158,49 @@ fn named_options(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
+/// Returns the name by which a link finds a heading, as GitHub makes it.
+fn anchor(heading: &str) -> String {
+    let kept = |c: char| match c {
+        ' ' => Some('-'),
+        c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c.to_ascii_lowercase()),
+        _ => None,
+    };
+    heading.trim_start_matches('#').trim().chars().filter_map(kept).collect()
+}
+
+/// Returns the places within the documents that a text links to.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    let after = text.match_indices("](").map(|(at, _)| &text[at + 2..]);
+    let inside = after.filter_map(|rest| rest.split(')').next()).filter(|link| !link.is_empty());
+    inside.filter(|link| !link.contains("://") && !link.contains(char::is_whitespace))
+}
+
+#[test]
+fn links_in_the_documents_lead_to_files_and_headings_that_exist() {
+    let further = ["architecture", "notes", "optics", "words"].map(|name| format!("docs/{name}.md"));
+    let mut count = 0;
+    for document in DOCUMENTS.map(str::to_owned).iter().chain(&further) {
+        let text = read(document);
+        let folder = document.rsplit_once('/').map_or("", |(folder, _)| folder);
+        for link in links(&text) {
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let path = if file.is_empty() { document.clone() } else { format!("{folder}/{file}") };
+            let path = path.trim_start_matches('/').trim_start_matches("docs/../").to_owned();
+            let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(&path);
+            assert!(whole.exists(), "{document} links to {link}: there is no {path}");
+            let is_there =
+                |text: &str| text.lines().any(|line| line.starts_with('#') && anchor(line) == heading);
+            assert!(
+                heading.is_empty() || is_there(&read(&path)),
+                "{document} links to {link}: no such heading"
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 200, "{count} links");
+    assert_eq!(anchor("### GemCad text, `.asc`"), "gemcad-text-asc");
+}
+
 #[test]
 fn options_that_the_documents_name_exist() {
     let mut known = options(&Arguments::command());
