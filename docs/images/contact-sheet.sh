@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes contact-sheet.png, the picture of docs/families.md: the facets, the ASET and a render of each family's first cut.
+# Makes contact-sheet.png, the picture of the families in docs/gallery.md: the facets, the ASET and a render of each family's first cut.
 # It runs in the top folder of the source and needs ImageMagick. The program is the first argument, or `brillianteer`.
 set -e
 program=${1:-brillianteer}

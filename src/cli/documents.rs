@@ -1,6 +1,7 @@
 //! Tests that the documents show commands, options, names and files that exist.
 
 use super::{Arguments, parsed, spelt_out};
+use brillianteer_cut::{Cut, FAMILIES, Family};
 use brillianteer_files::library;
 use clap::{Command, CommandFactory};
 use std::collections::BTreeSet;
@@ -112,7 +113,8 @@ fn commands_in_the_documents_are_understood_and_name_what_exists() {
         if let Err(error) = parsed(&given) {
             panic!("{at}: {line}: {error}");
         }
-        let lists_names = ["scopes", "lights", "scenes", "cuts", "materials", "completions", "man", "help"];
+        let lists_names =
+            ["scopes", "lights", "scenes", "cuts", "families", "materials", "completions", "man", "help"];
         if !lists_names.contains(&words[0].as_str()) {
             let mut option: Option<&str> = None;
             for word in &words[1..] {
@@ -156,6 +158,49 @@ fn named_options(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
+/// Returns the name by which a link finds a heading, as GitHub makes it.
+fn anchor(heading: &str) -> String {
+    let kept = |c: char| match c {
+        ' ' => Some('-'),
+        c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c.to_ascii_lowercase()),
+        _ => None,
+    };
+    heading.trim_start_matches('#').trim().chars().filter_map(kept).collect()
+}
+
+/// Returns the places within the documents that a text links to.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    let after = text.match_indices("](").map(|(at, _)| &text[at + 2..]);
+    let inside = after.filter_map(|rest| rest.split(')').next()).filter(|link| !link.is_empty());
+    inside.filter(|link| !link.contains("://") && !link.contains(char::is_whitespace))
+}
+
+#[test]
+fn links_in_the_documents_lead_to_files_and_headings_that_exist() {
+    let further = ["architecture", "notes", "optics", "words"].map(|name| format!("docs/{name}.md"));
+    let mut count = 0;
+    for document in DOCUMENTS.map(str::to_owned).iter().chain(&further) {
+        let text = read(document);
+        let folder = document.rsplit_once('/').map_or("", |(folder, _)| folder);
+        for link in links(&text) {
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let path = if file.is_empty() { document.clone() } else { format!("{folder}/{file}") };
+            let path = path.trim_start_matches('/').trim_start_matches("docs/../").to_owned();
+            let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(&path);
+            assert!(whole.exists(), "{document} links to {link}: there is no {path}");
+            let is_there =
+                |text: &str| text.lines().any(|line| line.starts_with('#') && anchor(line) == heading);
+            assert!(
+                heading.is_empty() || is_there(&read(&path)),
+                "{document} links to {link}: no such heading"
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 200, "{count} links");
+    assert_eq!(anchor("### GemCad text, `.asc`"), "gemcad-text-asc");
+}
+
 #[test]
 fn options_that_the_documents_name_exist() {
     let mut known = options(&Arguments::command());
@@ -197,9 +242,9 @@ fn the_overview_in_the_readme_names_every_command_and_options_that_it_takes() {
 #[test]
 fn the_readme_counts_the_families_and_materials_that_there_are() {
     let text = read("README.md").split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("Twenty-three [families]") && text.contains("30 gem materials and 12 glasses"));
+    assert!(text.contains("Twenty-three families") && text.contains("30 gem materials and 12 glasses"));
     assert_eq!(brillianteer_optics::materials().len(), 30 + 12);
-    let headings = read("docs/families.md").lines().filter(|line| line.starts_with("| [")).count();
-    // The round brilliant has a section of its own in docs/formats.md.
-    assert_eq!(headings + 1, 23);
+    // Shapes of glass are families too, but no cuts of gems.
+    let is_glass = |family: &&&Family| matches!(family.first, Cut::Glass(_));
+    assert_eq!(FAMILIES.iter().filter(|family| !is_glass(family)).count(), 23);
 }

@@ -15,6 +15,7 @@ mod default_name;
 mod documents;
 mod estimate_list;
 mod export;
+mod families;
 mod gradient;
 mod hearts_list;
 mod info;
@@ -151,6 +152,8 @@ enum Command {
     Materials(lists::List),
     /// List the cuts that come with the program, or print one as a cut file to start from
     Cuts(lists::Cuts),
+    /// List the families of cuts, or print the numbers of one with their ranges and meanings
+    Families(families::Families),
     /// List the scenes that come with the program, or print one as a file to start from
     Scenes(lists::Scenes),
     /// List the scopes, or print one as a file to start from
@@ -296,6 +299,7 @@ impl Command {
             Self::Bench(bench) => bench.run(),
             Self::Materials(list) => list.materials(),
             Self::Cuts(cuts) => cuts.run(),
+            Self::Families(families) => families.run(),
             Self::Scenes(scenes) => scenes.run(),
             Self::Scopes(scopes) => scopes.run(),
             Self::Lights(lights) => lights.run(),

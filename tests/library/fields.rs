@@ -197,7 +197,7 @@ fn whole_ways_through_glass_bring_as_much_light_on_the_card() {
     }
 }
 
-/// Times one pass of each shape, by the number of wavelengths, for the table in docs/performance.md.
+/// Times one pass of each shape, by the number of wavelengths.
 #[test]
 #[ignore = "tells times"]
 fn how_long_glass_takes() {

@@ -1,12 +1,10 @@
-//! Checks that docs/licences.md lists every crate that the program is built from, each with an accepted licence.
-//!
-//! `UPDATE_LICENCES=1 cargo test --release --test library licences` writes the list anew. It runs cargo, which may use the network.
+//! Checks that the list of crates in the editor's About window is that of the crates that the program is built of, each with an
+//! accepted licence. `cargo run -p xtask -- crates` writes the list.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 use std::path::Path;
 
-const LIST: &str = "docs/licences.md";
+const LIST: &str = "assets/crates.tsv";
 
 /// The accepted licences, which demand no more than to be named.
 const ACCEPTED: [&str; 17] = [
@@ -83,55 +81,8 @@ fn needed() -> BTreeSet<(String, String)> {
 
 /// Returns the rows of the list: name, version, licence, link.
 fn listed() -> Vec<[String; 4]> {
-    let text = read(LIST);
-    let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate |"));
-    let cells = rows.map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()));
-    cells.map(|row| row.collect::<Vec<_>>().try_into().unwrap()).collect()
-}
-
-/// Crates that state their licence only by a file with its text, which a person has read.
-const BY_FILE: [(&str, &str); 2] = [("cobyla", "MIT"), ("slsqp", "MIT")];
-
-/// Writes the list from cargo's metadata of each crate.
-fn write(needed: &BTreeSet<(String, String)>) {
-    let cargo = std::env::var_os("CARGO").unwrap();
-    let answer = std::process::Command::new(cargo)
-        .args(["metadata", "--all-features", "--locked", "--format-version", "1"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .unwrap();
-    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
-    let metadata: serde_json::Value = serde_json::from_slice(&answer.stdout).unwrap();
-    let mut rows = BTreeMap::new();
-    for package in metadata["packages"].as_array().unwrap() {
-        let text = |key: &str| package[key].as_str().unwrap_or_default().to_owned();
-        let key = (text("name"), text("version"));
-        let mut licence = text("license");
-        if let Some((_, known)) = BY_FILE.iter().find(|(name, _)| *name == key.0 && licence.is_empty()) {
-            (*known).clone_into(&mut licence);
-        }
-        let link = ["repository", "homepage"].map(text).into_iter().find(|link| !link.is_empty());
-        rows.insert(key, (licence, link.unwrap_or_default()));
-    }
-    let mut list = format!(
-        "# Licences of what Brillianteer is built of\n\nThe program itself is licensed under [MIT](../LICENSE-MIT) or \
-         [Apache-2.0](../LICENSE-APACHE), as you choose. Below are the {} crates that it is built of or with on any platform, \
-         each with the licence that it states; their texts come with their sources. Drawings and the window carry the fonts \
-         of `epaint_default_fonts`: Ubuntu Light, Hack, Noto Emoji and emoji-icon-font, under the licences that it states.\n\n\
-         `UPDATE_LICENCES=1 cargo test --release --test library licences` writes this list; the same test fails where it is not current.\n\n\
-         | crate | version | licence | where |\n|---|---|---|---|\n",
-        needed.len()
-    );
-    for key in needed {
-        let (licence, link) = &rows[key];
-        writeln!(list, "| {} | {} | {} | {} |", key.0, key.1, plain(licence), link).unwrap();
-    }
-    std::fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join(LIST), list).unwrap();
-}
-
-/// Returns a licence in the form of SPDX: older crates write a slash for a choice.
-fn plain(licence: &str) -> String {
-    licence.replace('/', " OR ").split_whitespace().collect::<Vec<_>>().join(" ")
+    let cells = |line: &str| line.split('\t').map(str::to_owned).collect::<Vec<_>>();
+    read(LIST).lines().map(|line| cells(line).try_into().unwrap()).collect()
 }
 
 /// Returns whether a licence, or one of the licences of a choice, is accepted. Brackets stand only around choices.
@@ -172,14 +123,11 @@ fn split<'a>(expression: &'a str, word: &str) -> Vec<&'a str> {
 fn the_list_of_licences_is_current() {
     let needed = needed();
     assert!(needed.len() > 200, "{} crates", needed.len());
-    if std::env::var_os("UPDATE_LICENCES").is_some() {
-        write(&needed);
-    }
     let listed: BTreeSet<(String, String)> =
         listed().into_iter().map(|[name, version, ..]| (name, version)).collect();
     let missing: Vec<_> = needed.difference(&listed).collect();
     let gone: Vec<_> = listed.difference(&needed).collect();
-    let what = "run UPDATE_LICENCES=1 cargo test --release --test library licences";
+    let what = "run cargo run -p xtask -- crates";
     assert!(missing.is_empty() && gone.is_empty(), "missing: {missing:?}; not needed: {gone:?}; {what}");
 }
 

@@ -3,6 +3,7 @@
 
 mod cutting;
 mod desk;
+mod documents;
 mod ends;
 mod faults;
 mod helps;

@@ -144,7 +144,7 @@ pub trait ProgressiveImage<E: From<Stopped>> {
 const WIDEST_BAND: f64 = 5.0;
 
 /// The number of shares that a ray represents, as a part of the square root of the number of shares in all bands. The noise
-/// of a rainbow and its blur are then about equal (docs/performance.md, noise of few samples).
+/// of a rainbow and its blur are then about equal (docs/notes.md).
 const BAND_BY_ROOT: f64 = 0.35;
 
 impl Sampling {

@@ -206,6 +206,7 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
         "measure cube.toml --json",
         "materials",
         "cuts",
+        "families oval",
         "scenes",
         "scopes aset",
         "lights fire",

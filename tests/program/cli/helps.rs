@@ -86,6 +86,33 @@ fn info_lists_tiers_and_facets_only_where_they_are_asked_for() {
 }
 
 #[test]
+fn every_family_prints_the_numbers_that_its_cuts_give() {
+    let desk = Desk::new();
+    let all = desk.json("families --json");
+    assert_eq!(list(&all).len(), 27);
+    for family in list(&all) {
+        let key = family["key"].as_str().unwrap();
+        let [page, object] = ["", " --json"].map(|json| desk.done(&format!("families {key}{json}")));
+        let object: Value = serde_json::from_str(&object).unwrap();
+        let numbers = list(&object["numbers"]);
+        let keys: Vec<&str> = numbers.iter().map(|number| number["key"].as_str().unwrap()).collect();
+        let is_on_page = |key: &&str| page.contains(&format!("\n{key} ("));
+        assert!(!keys.is_empty() && keys.iter().all(is_on_page), "{key}: {page}");
+        for number in numbers.iter().filter(|number| number["can_be_set"] == true) {
+            let [least, first, most] = [at(number, "usual/0"), at(number, "first"), at(number, "usual/1")];
+            assert!(
+                least <= first && first <= most && !number["meaning"].as_str().unwrap().is_empty(),
+                "{number}"
+            );
+        }
+        let cut = family["cuts"][0].as_str().unwrap_or_else(|| panic!("no cut of {key}"));
+        let given = desk.json(&format!("info --json {cut}"))["given"].clone();
+        assert!(given.as_object().unwrap().keys().all(|given| keys.contains(&given.as_str())), "{given}");
+    }
+    assert!(desk.refused("families ovla", 2).contains("did you mean 'oval'?"));
+}
+
+#[test]
 fn every_list_comes_as_json_and_not_beside_a_name() {
     let desk = Desk::new();
     for (command, name, key, least) in [

@@ -24,7 +24,7 @@ const DESIGNS: [&str; 10] = [
     "slanted.toml",
     "tilted.glb",
 ];
-const COMMANDS: [&str; 26] = [
+const COMMANDS: [&str; 27] = [
     "",
     "edit",
     "export",
@@ -48,6 +48,7 @@ const COMMANDS: [&str; 26] = [
     "materials",
     "cuts",
     "scenes",
+    "families",
     "scopes",
     "lights",
     "completions",
@@ -96,7 +97,7 @@ fn record(desk: &Desk, line: &str, record: &mut String) {
 /// Returns the commands whose outputs are recorded.
 fn lines() -> Vec<String> {
     let mut lines: Vec<String> = COMMANDS.into_iter().map(|command| format!("{command} --help")).collect();
-    for list in ["cuts", "materials", "scenes", "lights", "scopes"] {
+    for list in ["cuts", "families", "materials", "scenes", "lights", "scopes"] {
         lines.extend([list.to_owned(), format!("{list} --json")]);
     }
     for design in DESIGNS.into_iter().chain(MESHES) {

@@ -120,7 +120,7 @@ fn split_meets(cut: &Cut) -> Option<Vec<(String, f64)>> {
 }
 
 /// The edges that real stones of the cut have as well: the upper edges of corners' facets below a table of eight or more sides, where
-/// the crown has one row. docs/families.md says so.
+/// the crown has one row.
 const TABLE_EDGE: &str = "crown_1 crown_1 crown_1 table";
 
 /// The families with such edges: the most in a stone, a multiple of four, and their least length in percent of the width.

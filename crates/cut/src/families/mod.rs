@@ -14,7 +14,7 @@
 //!    into `CUTS` of `crates/files/src/library.rs`. Panel, help, files, errors and lists read the rows.
 //! 4. The laws of `tests` and `facet_tests` run on every family. Where its numbers count something (mains, rows),
 //!    state there how many facets follow.
-//! 5. Record docs/families.md; `documented` says how.
+//! 5. State where its usual ranges come from in `range_sources`.
 //!
 //! No proportion is named Length or Width: the panel has rows of these names for the size of stones.
 
@@ -30,8 +30,6 @@ mod curves;
 mod cushion;
 mod cushion_barion;
 mod cushion_chevrons;
-#[cfg(test)]
-mod documented;
 mod emerald;
 #[cfg(test)]
 mod facet_tests;
@@ -41,13 +39,14 @@ mod hexagon;
 mod kite;
 mod marquise;
 mod modified_cushion;
+#[cfg(test)]
+mod number_tests;
 mod oval;
 mod oval_barion;
 mod pear;
 mod portuguese;
 mod princess;
 mod radiant;
-#[cfg(test)]
 mod range_sources;
 mod rose;
 mod rows;

@@ -1,4 +1,4 @@
-//! The sources of the usual range of each number, for docs/families.md.
+//! The sources of the usual range of each number.
 //!
 //! "Published" means a page or a table that was read; GemCad's library and other designs of cutters count as
 //! published too. A range that is only near a published one says so. "Ours" means that no source publishes the range;
@@ -20,10 +20,18 @@ const EMERALD_SLOPE: &str = "wider than published for emerald cuts (diamondcutte
 const EMERALD_CROWN: &str = "wider than published for emerald cuts (diamondcuttersintl.com: 32 to 35)";
 const EMERALD_TABLE: &str = "published for emerald cuts: 55 to 75 (gemmology.dev), from 50 on";
 
-/// Returns the source of the usual range of a number; `None` where this file does not give it.
-pub(super) fn range_source(family: &Family, row: &Proportion) -> Option<&'static str> {
-    let own = own(family.key, row.key);
-    own.or(match row.key {
+impl Family {
+    /// Returns the source of the usual range of one of the family's numbers; `None` where it is not stated, as for the round
+    /// brilliant and for shapes of glass.
+    pub fn range_source(&self, row: &Proportion) -> Option<&'static str> {
+        self.net?;
+        own(self.key, row.key).or_else(|| common(self.key, row))
+    }
+}
+
+/// Returns the source of a range that several families have in common.
+fn common(family: &str, row: &Proportion) -> Option<&'static str> {
+    match row.key {
         "girdle_thickness" => Some(GIRDLE),
         "culet" => Some(CULET),
         "crown_rows" | "pavilion_rows" => Some(ROWS),
@@ -35,8 +43,8 @@ pub(super) fn range_source(family: &Family, row: &Proportion) -> Option<&'static
         "corner_radius" => Some("ours: from small corners to soft ones, as in the trade's pictures"),
         "keel" => Some("ours: from steeper ends to flatter ones than the sides"),
         _ if row.unit == Unit::Count && row.key.starts_with("mains_per_") => Some(MAINS),
-        _ => step_cut(family.key, row.key),
-    })
+        _ => step_cut(family, row.key),
+    }
 }
 
 /// Returns the source of a range that step cuts have in common.

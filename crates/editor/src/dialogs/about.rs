@@ -17,8 +17,9 @@ const LICENCES: [(&str, &str); 2] = [
     ("Apache-2.0", include_str!("../../../../LICENSE-APACHE")),
 ];
 
-/// The table of the crates that the program is built of, in Markdown; a test keeps it current.
-const CRATES: &str = include_str!("../../../../docs/licences.md");
+/// The crates that the program is built of: name, version, licence and address between tabs. `cargo run -p xtask -- crates`
+/// writes the list, and a test holds it current.
+const CRATES: &str = include_str!("../../../../assets/crates.tsv");
 
 /// The greatest height of lists and texts, points; a low window gives them less.
 const LIST: f32 = 300.0;
@@ -34,15 +35,13 @@ pub struct Crate<'a> {
     pub link: &'a str,
 }
 
-/// Returns all crates, read from the rows of the table.
+/// Returns all crates of the list.
 pub fn crates() -> impl Iterator<Item = Crate<'static>> {
-    CRATES.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate |")).filter_map(
-        |line| {
-            let mut cells = line.trim_matches('|').split('|').map(str::trim);
-            let mut next = || cells.next();
-            Some(Crate { name: next()?, version: next()?, licence: next()?, link: next()? })
-        },
-    )
+    CRATES.lines().filter_map(|line| {
+        let mut cells = line.split('\t');
+        let mut next = || cells.next();
+        Some(Crate { name: next()?, version: next()?, licence: next()?, link: next()? })
+    })
 }
 
 /// Draws the dialog.

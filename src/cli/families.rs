@@ -1,0 +1,145 @@
+//! `families`: lists the families of cuts, or prints the numbers of one with their ranges.
+
+use super::console::{json, print};
+use brillianteer_base::{Failure, nearest};
+use brillianteer_cut::{Bound, BoundAt, FAMILIES, Family, Proportion, Unit};
+use brillianteer_files::cut_file;
+use brillianteer_files::library::CUTS;
+use clap::Args;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+#[derive(Debug, Args)]
+pub struct Families {
+    /// Print the numbers of this family: key, unit, range, meaning
+    key: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Families {
+    pub fn run(&self) -> Result<(), Failure> {
+        match &self.key {
+            None => self.all(),
+            Some(key) => {
+                let family = Family::of_key(&key.replace('-', "_")).ok_or_else(|| unknown(key))?;
+                print(&if self.json { json(&object(family)) } else { page(family) })
+            }
+        }
+    }
+
+    fn all(&self) -> Result<(), Failure> {
+        let mut rows = vec![];
+        for family in FAMILIES {
+            rows.push((family, cuts(family)?));
+        }
+        if self.json {
+            let entry = |(family, cuts): (&Family, Vec<&str>)| json!({ "key": family.key, "name": family.name, "cuts": cuts });
+            return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
+        }
+        let line = |(family, cuts): (&Family, Vec<&str>)| {
+            format!("{:<18}{:<20}{}", family.key, family.name, cuts.join(", "))
+        };
+        print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
+    }
+}
+
+fn unknown(key: &str) -> Failure {
+    let known = FAMILIES.map(|family| family.key);
+    let meant = nearest(key, &known).map_or(String::new(), |name| format!("; did you mean '{name}'?"));
+    Failure::Usage(format!("no family '{key}'{meant} known: {}", known.join(", ")))
+}
+
+/// Returns the names of a family's cuts that come with the program.
+fn cuts(family: &Family) -> Result<Vec<&'static str>, Failure> {
+    let mut names = vec![];
+    for (name, text) in CUTS {
+        if cut_file::parse(text, name)?.cut.family().is_some_and(|own| own.key == family.key) {
+            names.push(name);
+        }
+    }
+    Ok(names)
+}
+
+/// Returns a family's numbers as text.
+fn page(family: &'static Family) -> String {
+    let mut text = format!("{}, [{}] in cut files", family.name, family.key);
+    for row in family.proportions {
+        let [least, most] = row.usual;
+        let _ = write!(text, "\n\n{} ({})\n    {}", row.key, unit(row), row.meaning);
+        if !row.can_be_set() {
+            text.push_str("\n    follows from the others");
+            continue;
+        }
+        let source = family.range_source(row).map_or(String::new(), |source| format!(" ({source})"));
+        let _ = write!(text, "\n    usual: {least} to {most}{source}\n    possible: {}", possible(row));
+        let _ = write!(text, "\n    first cut: {}", value(family, row));
+        match row.default {
+            Some(default) => drop(write!(text, "; without the key: {default}")),
+            None if !row.moves.is_empty() => {
+                drop(write!(text, "; may stand in the place of {}", row.moves.join(", ")));
+            }
+            None => row.pair.into_iter().for_each(|other| drop(write!(text, "; or {other}"))),
+        }
+    }
+    text
+}
+
+/// Returns a family's numbers as JSON.
+fn object(family: &'static Family) -> Value {
+    let number = |row: &'static Proportion| {
+        let end = |bound: Option<Bound>| match bound {
+            Some(Bound { at: BoundAt::Fixed(at), .. }) => json!(at),
+            _ => Value::Null,
+        };
+        let limits = |bound: Option<Bound>| bound.map(|bound| bound.reason);
+        json!({
+            "key": row.key,
+            "name": row.name,
+            "unit": unit(row),
+            "meaning": row.meaning,
+            "can_be_set": row.can_be_set(),
+            "usual": row.usual,
+            "source": family.range_source(row),
+            "least": end(row.least),
+            "least_reason": limits(row.least),
+            "most": end(row.most),
+            "most_reason": limits(row.most),
+            "first": value(family, row),
+            "default": row.default,
+            "in_the_place_of": row.pair.as_slice().iter().chain(row.moves).collect::<Vec<_>>(),
+        })
+    };
+    let numbers: Vec<Value> = family.proportions.iter().map(number).collect();
+    json!({ "key": family.key, "name": family.name, "numbers": numbers })
+}
+
+/// Returns the value of the family's first cut. Derived numbers have more digits than a reader needs.
+fn value(family: &Family, row: &Proportion) -> f64 {
+    (1e4 * (row.get)(&family.first)).round() / 1e4
+}
+
+fn unit(row: &Proportion) -> String {
+    match row.unit {
+        Unit::Count => "whole number".to_owned(),
+        _ => row.hint(),
+    }
+}
+
+/// Returns the possible range in words.
+fn possible(row: &Proportion) -> String {
+    let ends = [end(["from", "above"], row.least), end(["to", "below"], row.most)];
+    let ends: Vec<String> = ends.into_iter().flatten().collect();
+    if ends.is_empty() { "as the other numbers allow".to_owned() } else { ends.join(", ") }
+}
+
+/// Returns a bound with the reason for it; `words` name one that is itself possible, and one that is not.
+fn end(words: [&str; 2], bound: Option<Bound>) -> Option<String> {
+    let Bound { at, inclusive, reason } = bound?;
+    let word = if inclusive { words[0] } else { words[1] };
+    Some(match at {
+        BoundAt::Fixed(at) => format!("{word} {at} ({reason})"),
+        BoundAt::Of(_) => format!("{word} a limit that depends on other keys ({reason})"),
+    })
+}
