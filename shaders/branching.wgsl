@@ -16,7 +16,7 @@ fn depart(departing: Inbound) {
     if is_spent() {
         given_up += weight;
     } else if met.distance < 0.0 || is_taken(ray, met.distance * unit()) {
-        leave(ray, weight, departing.bounce == 0u);
+        leave(ray, weight, outward_polarisation(departing), departing.bounce == 0u);
     } else if weight > frame.limits.x && inbound_count < MOST_INBOUND {
         inbound[inbound_count] = departing;
         inbound[inbound_count].met = met;
@@ -26,12 +26,12 @@ fn depart(departing: Inbound) {
     }
 }
 
-// Follows a ray of this weight into the body at the facet `entered`, and then all its light that enters the body again, the
+// Follows light of this weight into the body at the facet `entered`, and then all of it that enters the body again, the
 // strongest first.
-fn follow(ray: Ray, entered: Meeting, weight: f32) -> Rest {
+fn follow(ray: Ray, entered: Meeting, weight: f32, polarisation: Polarisation) -> Rest {
     inbound_count = 0u;
     given_up = 0.0;
-    var rest = passage(arriving(ray, entered, weight));
+    var rest = passage(arriving(ray, entered, weight, polarisation));
     while inbound_count > 0u {
         var strongest = 0u;
         var most = -1.0;

@@ -20,6 +20,7 @@ struct Left {
 struct Waiting {
     ray: Ray,
     weight: f32,
+    polarisation: Polarisation,
     first: First,
     chances: Chances,
     // The side of the square of directions that the ray represents; 0 for one direction.
@@ -122,20 +123,20 @@ fn is_taken(ray: Ray, distance: f32) -> bool {
 }
 
 // Handles light that leaves the present stone.
-fn leave(ray: Ray, weight: f32, is_surface: bool) {
+fn leave(ray: Ray, weight: f32, polarisation: Polarisation, is_surface: bool) {
     exits += 1u;
-    onward(ray, weight, spread_before, Left(present, NONE), chances_beyond(chances, exits));
+    onward(ray, weight, polarisation, spread_before, Left(present, NONE), chances_beyond(chances, exits));
 }
 
 // Handles light that has left a body. Light that meets another body waits to be followed, and all other light is
 // looked up. `spread` is the side of the square of directions that the ray represents.
-fn onward(ray: Ray, weight: f32, spread: f32, left: Left, own: Chances) {
+fn onward(ray: Ray, weight: f32, polarisation: Polarisation, spread: f32, left: Left, own: Chances) {
     if has_others() {
         let first = first_body(ray, left);
         if first.body != NONE || is_spent() {
             let kept = sieved(weight);
             if count < MOST_WAITING && kept > frame.limits.x {
-                waiting[count] = Waiting(ray, kept, first, own, spread);
+                waiting[count] = Waiting(ray, kept, polarisation, first, own, spread);
                 count += 1u;
             } else {
                 sum.rest.x += kept;
@@ -168,7 +169,7 @@ fn go(next: Waiting, wavelength: u32) {
     present = next.first.body;
     body = bodies[present];
     medium = medium_of(media[present * frame.counts.y + wavelength]);
-    let rest = follow(next.ray, next.first.met, next.weight);
+    let rest = follow(next.ray, next.first.met, next.weight, next.polarisation);
     sum.rest += vec4f(rest.unresolved, rest.absorbed, 0.0, 0.0);
 }
 
@@ -199,7 +200,7 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
         sum = RadiancePixel();
         turns = turns_before;
         response = responses[select(w, frame.counts.y, is_beside)];
-        var next = Waiting(straight, 1.0, first, chances_of_pixel(pixel, w), 0.0);
+        var next = Waiting(straight, 1.0, no_polarisation(), first, chances_of_pixel(pixel, w), 0.0);
         // `go` is called at one place for all light, because compilers inline it with everything it calls, which
         // takes some of them long.
         loop {

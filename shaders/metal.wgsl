@@ -260,5 +260,6 @@ fn reflect_by_metal(next: Waiting, wavelength: u32) {
         Chances(mixed_bits(own.luck ^ SALT), mixed_bits(own.roulette ^ by), own.number, own.reflections + 1u);
     let left = Left(next.first.body, hit.facet);
     let spread = wider(sqrt(found.solid_angle / PARTS), next.spread);
-    onward(ray, next.weight * found.weight, spread, left, later);
+    // Metal is taken to leave light unpolarised.
+    onward(ray, next.weight * found.weight, no_polarisation(), spread, left, later);
 }

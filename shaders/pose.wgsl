@@ -38,18 +38,24 @@ fn meet(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(met.facet, met.distance * unit());
 }
 
-// Returns unpolarised light of this weight that meets the body at `met`, in the body's frame. Its ray starts on the surface,
-// so that a long way to the body costs no digits.
-fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
+// Returns light of this weight that meets the body at `met`, in the body's frame. Its ray starts on the surface, so that
+// a long way to the body costs no digits.
+fn arriving(ray: Ray, met: Meeting, weight: f32, polarisation: Polarisation) -> Inbound {
     let direction = own_vector(ray.direction);
     let distance = met.distance / unit();
     let point = polished(unplace(ray.origin) + direction * distance);
     let fan = own_vector(ray.fan);
     let shift = own_vector(ray.shift) / unit() + fan * distance;
-    return inbound_of(Ray(point, direction, fan, shift), Meeting(met.facet, 0.0), weight);
+    let own = Polarisation(polarisation.light, own_vector(polarisation.s));
+    return inbound_of(Ray(point, direction, fan, shift), Meeting(met.facet, 0.0), weight, own);
 }
 
 // Carries a ray that leaves the body into the world.
 fn outward(ray: Ray) -> Ray {
     return Ray(place(ray.origin), world_vector(ray.direction), world_vector(ray.fan), world_vector(ray.shift) * unit());
+}
+
+// Returns the polarisation of light that leaves the body, in the world.
+fn outward_polarisation(departing: Inbound) -> Polarisation {
+    return Polarisation(departing.light, world_vector(departing.s));
 }

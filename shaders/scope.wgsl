@@ -22,7 +22,7 @@ fn marked(band: u32, first: u32) -> vec4f {
 }
 
 // Adds light that leaves the stone to its band.
-fn leave(ray: Ray, weight: f32, is_surface: bool) {
+fn leave(ray: Ray, weight: f32, polarisation: Polarisation, is_surface: bool) {
     let band = band_of(ray.direction);
     if is_surface {
         sum.surface[0] += marked(band, 0u) * weight;
@@ -60,7 +60,7 @@ fn scope(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     let ray = pixel_ray(vec2u(place.x, frame.film.z + place.y), (cell + frame.limits.zw) / f32(grid));
     let entered = meet(ray.origin, ray.direction);
     if entered.distance >= 0.0 {
-        let rest = follow(ray, entered, 1.0);
+        let rest = follow(ray, entered, 1.0, no_polarisation());
         sum.rest = vec4f(rest.absorbed, rest.unresolved, 1.0, 0.0);
         sum.strongest[0] = marked(strongest_band, 0u);
         sum.strongest[1] = marked(strongest_band, 4u);

@@ -67,8 +67,24 @@ struct Inbound {
     bounce: u32,
 }
 
-// Returns unpolarised light of this weight that meets the body at `met`.
-fn inbound_of(ray: Ray, met: Meeting, weight: f32) -> Inbound {
+// The polarisation of light outside: its coherency matrix at any weight, along `s` and direction × s. A zero vector
+// `s` stands for light that is not polarised.
+struct Polarisation {
+    light: vec4f,
+    s: vec3f,
+}
+
+// Returns the polarisation of light that is not polarised.
+fn no_polarisation() -> Polarisation {
+    return Polarisation(vec4f(0.0), vec3f(0.0));
+}
+
+// Returns light of this weight that meets the body at `met`.
+fn inbound_of(ray: Ray, met: Meeting, weight: f32, polarisation: Polarisation) -> Inbound {
+    if dot(polarisation.s, polarisation.s) > 0.0 {
+        let light = polarisation.light * (weight / (polarisation.light.x + polarisation.light.y));
+        return Inbound(met, ray, light, polarisation.s, 1.0, 0.0, 0u);
+    }
     let normal = facet_normal(met.facet, ray.origin + ray.direction * met.distance);
     let s = s_axis(ray.direction, normal, frame.right.xyz);
     return Inbound(met, ray, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);

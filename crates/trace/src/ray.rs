@@ -108,6 +108,8 @@ pub struct MeetingRay {
     pub weight: f64,
     /// The chance by which weak light goes on in a solid that is not convex; `None` where all light is followed.
     pub roulette: Option<Roulette>,
+    /// The polarisation of the light, at this weight; `None` where the light is not polarised.
+    light: Option<PathLight>,
     /// The random numbers by which frosted facets scatter the light; `None` where light that meets such a facet
     /// counts as unresolved.
     luck: Option<LobeLuck>,
@@ -116,7 +118,7 @@ pub struct MeetingRay {
 impl MeetingRay {
     /// Returns a ray from the eye.
     pub fn from_eye(met: (usize, f64), ray: DispersedRay) -> Self {
-        Self { met, ray, weight: 1.0, roulette: None, luck: None }
+        Self { met, ray, weight: 1.0, roulette: None, light: None, luck: None }
     }
 }
 
@@ -188,16 +190,18 @@ impl StoneTracer {
         is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
     ) -> Option<Loss> {
-        // One chain is compiled for all callers, not one for each closure: an exit costs far less than the bounce before it.
-        self.follow_into(ray, &is_taken, &mut leave)
+        self.follow_light(ray, &is_taken, &mut |exit, _| leave(exit))
     }
 
-    fn follow_into(
+    /// Follows a ray as [`follow_from`](Self::follow_from) does. `leave` also receives the event at which the light
+    /// leaves, which knows its polarisation ([`leaving_light`](Self::leaving_light)).
+    pub(super) fn follow_light(
         &self,
         ray: &MeetingRay,
         is_taken: &dyn Fn(&Exit, f64) -> bool,
-        leave: &mut dyn FnMut(Exit),
+        leave: &mut dyn FnMut(Exit, &SurfaceEvent),
     ) -> Option<Loss> {
+        // One chain is compiled for all callers, not one for each closure: an exit costs far less than the bounce before it.
         let start = self.start(ray);
         match &self.shape {
             SolidFacets::Planes(planes) => self.chain(&**planes, start, leave),
@@ -229,18 +233,24 @@ impl StoneTracer {
     }
 
     /// Follows light through a solid that never takes back light that has left it.
-    fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, leave: &mut dyn FnMut(Exit)) -> Option<Loss> {
+    fn chain<F: FacetSearch>(
+        &self,
+        facets: &F,
+        start: Inbound,
+        leave: &mut dyn FnMut(Exit, &SurfaceEvent),
+    ) -> Option<Loss> {
         self.passage(facets, start, self.options.least_weight, |meeting| {
             if let Some(exit) = meeting.exit() {
-                leave(exit);
+                leave(exit, &meeting);
             }
         })
     }
 
-    /// Returns the light of a ray that is about to enter; it is not polarised.
+    /// Returns the light of a ray that is about to enter.
     fn start(&self, meeting: &MeetingRay) -> Inbound {
-        let &MeetingRay { met, ray, weight, luck, .. } = meeting;
-        let light = PathLight::of_eye(ray.direction, weight, self.options.polarised);
+        let &MeetingRay { met, ray, weight, light, luck, .. } = meeting;
+        let unpolarised = || PathLight::of_eye(ray.direction, weight, self.options.polarised);
+        let light = light.unwrap_or_else(unpolarised);
         Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0, luck }
     }
 
@@ -367,6 +377,15 @@ impl StoneTracer {
             (ray, light) = (ray.reflected_inside(&arrival, cos_i, spread.is_some()), onward);
         }
         Loss { unresolved: remaining, ..rest }
+    }
+
+    /// Returns the light of an exit at this event, with the exit's weight; `None` where the light has no polarisation
+    /// that matters: where polarisation is not followed, and beyond a frosted facet.
+    pub(super) fn leaving_light(&self, event: &SurfaceEvent, exit: &Exit) -> Option<PathLight> {
+        if !self.options.polarised || exit.spread > 0.0 {
+            return None;
+        }
+        Some(event.onward_outside(self.medium.index)?.scaled_to(exit.weight))
     }
 
     /// Returns the facet and the distance at which a ray from outside enters; `None` where it misses.

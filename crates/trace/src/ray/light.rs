@@ -6,14 +6,14 @@ use num_complex::Complex64;
 
 /// The light of a ray between two facets: a weight, or the two fields into which the eye's two polarisations have
 /// turned.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PathLight {
     Unpolarised(f64),
     Fields(ElectricFields),
 }
 
 /// Two complex electric fields, each given by its components along two axes: s, and p = s × the ray's direction.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ElectricFields {
     /// A unit vector perpendicular to the ray.
     s: DVec3,
@@ -80,6 +80,20 @@ impl PathLight {
                 let parts = fields.parts.map(|field| field.map(|part| part * root));
                 Self::Fields(ElectricFields { parts, weight: fields.weight * factor, ..*fields })
             }
+        }
+    }
+
+    /// Returns light of the same polarisation at this weight. Light without weight stays as it is.
+    pub fn scaled_to(&self, weight: f64) -> Self {
+        let own = self.weight();
+        if own > 0.0 && own != weight { self.scaled(weight / own) } else { *self }
+    }
+
+    /// Returns the light in another frame, into which `carry` rotates vectors.
+    pub fn carried(&self, carry: impl Fn(DVec3) -> DVec3) -> Self {
+        match self {
+            Self::Unpolarised(weight) => Self::Unpolarised(*weight),
+            Self::Fields(fields) => Self::Fields(ElectricFields { s: carry(fields.s), ..*fields }),
         }
     }
 }
