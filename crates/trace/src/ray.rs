@@ -26,7 +26,6 @@ mod sight;
 mod tree;
 
 pub use self::camera::Camera;
-use self::dispersed_ray::Arrival;
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::first_bodies::FirstBodies;
 use self::frosted_facets::{Arriving, FrostedFacets, Struck};
@@ -37,16 +36,15 @@ use self::lobe_luck::LobeLuck;
 pub use self::loss::Loss;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
-pub(crate) use self::roulette::ChainRoulette;
 pub use self::roulette::Roulette;
+pub(crate) use self::roulette::{ChainEnd, ChainRoulette};
 pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
 pub use self::sight::{ProbeRay, SceneProbe, facet_at};
 use self::tree::Inbound;
 use crate::DispersedRay;
+use crate::dispersed_ray::{Arrival, Refraction};
 use brillianteer_math::SolidRef;
-use brillianteer_optics::{
-    FrostedSurface, cos_transmitted, reflect, reflected_change, refract, refracted_change,
-};
+use brillianteer_optics::{FrostedSurface, cos_transmitted};
 use brillianteer_scene::Medium;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -264,8 +262,9 @@ impl StoneTracer {
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Option<Loss> {
         let Inbound { met: (facet, distance), ray, left, path, bounce, .. } = inbound;
-        let DispersedRay { direction, fan, .. } = ray;
-        let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
+        let direction = ray.direction;
+        let arrival = ray.arrival(facets, facet, distance);
+        let Arrival { point, normal, .. } = arrival;
         let eta = 1.0 / self.medium.index;
         if let Some(surface) = self.frosted_surface(facet) {
             return Some(self.enter_frosted(
@@ -278,11 +277,11 @@ impl StoneTracer {
         }
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
-        let inward = refract(direction, normal, eta, (cos_i, cos_t));
         let SplitLight { reflected: glare, passed: light } = inbound.light.split(direction, normal, eta);
         let of_eta = -self.medium.spread * eta * eta;
-        let fanned = refracted_change(direction, normal, eta, (cos_i, cos_t), (fan, of_normal, of_eta));
-        let back = reflect(direction, normal, cos_i);
+        let inward =
+            ray.refracted(&arrival, &Refraction { eta: [eta, of_eta], cosines: (cos_i, cos_t) }, true);
+        let back = ray.reflected(&arrival, cos_i, true);
         meets(SurfaceEvent {
             facet: facet as u32,
             point,
@@ -293,16 +292,15 @@ impl StoneTracer {
             arriving: direction,
             light: &inbound.light,
             leaving: Some(ExitLight {
-                direction: back,
-                fan: reflected_change(direction, normal, (fan, of_normal)),
-                shift,
+                direction: back.direction,
+                fan: back.fan,
+                shift: back.shift,
                 weight: glare.weight() * left,
                 spread: 0.0,
             }),
             onward: light.weight() * left,
         });
-        let ray = DispersedRay { origin: point, direction: inward, fan: fanned, shift };
-        Some(self.bounce(facets, Inbound { ray, light, ..inbound }, least_weight, meets))
+        Some(self.bounce(facets, Inbound { ray: inward, light, ..inbound }, least_weight, meets))
     }
 
     /// Returns the surface of a facet that is frosted; `None` where it is polished.
@@ -322,7 +320,7 @@ impl StoneTracer {
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
         // A ray that has no fan here, in a medium without spread, has none at the next facet either.
-        let spread = (self.medium.spread != 0.0 || ray.is_fanned()).then_some(self.medium.spread);
+        let is_fanned = self.medium.spread != 0.0 || ray.is_fanned();
         while remaining > least_weight && rest.bounces < self.options.most_bounces {
             let (direction, index) = (ray.direction, self.medium.index);
             let Some((facet, distance)) = facets.next(ray.origin, direction) else { break };
@@ -350,15 +348,11 @@ impl StoneTracer {
                 break;
             }
             let SplitLight { reflected: onward, passed } = light.split(direction, normal, index);
+            let within = arrival.turned_over();
             let leaving = cos_transmitted(cos_i, index).map(|cos_t| {
-                let (direction, fan) = ray.refracted_outside(&arrival, index, (cos_i, cos_t), spread);
-                ExitLight {
-                    direction,
-                    fan,
-                    shift: arrival.shift,
-                    weight: passed.weight() * left,
-                    spread: 0.0,
-                }
+                let out = Refraction { eta: [index, self.medium.spread], cosines: (cos_i, cos_t) };
+                let DispersedRay { direction, fan, shift, .. } = ray.refracted(&within, &out, is_fanned);
+                ExitLight { direction, fan, shift, weight: passed.weight() * left, spread: 0.0 }
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;
@@ -374,7 +368,7 @@ impl StoneTracer {
                 leaving,
                 onward: remaining,
             });
-            (ray, light) = (ray.reflected_inside(&arrival, cos_i, spread.is_some()), onward);
+            (ray, light) = (ray.reflected(&within, cos_i, is_fanned), onward);
         }
         Loss { unresolved: remaining, ..rest }
     }

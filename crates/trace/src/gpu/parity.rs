@@ -11,7 +11,7 @@ use super::gpu_types;
 use super::pane::pane_source;
 use super::peak::{ARITHMETIC_WGSL, MEMORY_WGSL};
 use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
-use brillianteer_optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
+use brillianteer_optics::{Fresnel, Incidence, fresnel, reflect, refract};
 use glam::DVec3;
 use std::io::Write;
 use wgpu::naga::{front, valid};
@@ -118,7 +118,7 @@ fn meeting(@builtin(global_invocation_id) id: vec3u) {
 fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
     let f = fresnel(cos_i, eta);
     let (d, n) = (DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i), DVec3::Z);
-    let cos_t = f.cos_t.unwrap_or(0.0);
+    let cos_t = f.cos_t;
     let (up, on) = (reflect(d, n, cos_i), refract(d, n, eta, (cos_i, cos_t)));
     let [ss, pp, re, im] = [0.6, 0.25, 0.1, -0.2];
     let (sin, cos) = turn.sin_cos();
@@ -129,8 +129,9 @@ fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
         im,
     ];
     let (of_d, of_n) = (DVec3::new(0.03, -0.01, 0.02), DVec3::new(0.02, 0.04, 0.0));
-    let moved = refracted_change(d, n, eta, (cos_i, cos_t.max(1e-9)), (of_d, of_n, 0.05)) * cos_t * cos_t;
-    let mirrored = reflected_change(d, n, (of_d, of_n));
+    let incidence = Incidence { direction: d, normal: n, cos_i, of_direction: of_d, of_normal: Some(of_n) };
+    let moved = incidence.refracted_change(eta, 0.05, cos_t.max(1e-9)) * cos_t * cos_t;
+    let mirrored = incidence.reflected_change();
     let Fresnel { r_s, r_p, .. } = f;
     let cross = r_s * r_p.conj() * num_complex::Complex64::new(light[2], light[3]);
     let (s, p) = (f.reflectance_s(), f.reflectance_p());

@@ -1,6 +1,6 @@
 //! The light of a ray, and how a surface splits it.
 
-use brillianteer_optics::{fresnel, reflectance};
+use brillianteer_optics::{Real, fresnel, reflectance};
 use glam::DVec3;
 use num_complex::Complex64;
 
@@ -98,17 +98,13 @@ impl PathLight {
     }
 }
 
-/// The sine of the angle between a ray and a facet's normal below which the ray counts as perpendicular to the facet,
-/// because the cross product there is mostly rounding.
-const SQUARE_ON: f64 = 1e-9;
-
 impl ElectricFields {
     /// Returns the same fields with an axis s that is also perpendicular to a facet's normal.
     #[inline(always)]
     fn turned(&self, ray: DVec3, normal: DVec3) -> Self {
         let across = ray.cross(normal);
         let length = across.length();
-        if length <= SQUARE_ON {
+        if length <= f64::SQUARE_ON {
             return *self;
         }
         let s = across / length;

@@ -60,7 +60,7 @@ impl StoneTracer {
                 Some(roulette) => roulette.passage(&next.light, next.left),
                 None => PassageRoulette::without_chance(self.options.least_weight, &next.light, next.left),
             };
-            let passed = self.passage(facets, next, chances.chain.least, |meeting| {
+            let passed = self.passage(facets, next, chances.chain.end.least, |meeting| {
                 let factor = chances.chain.meet(meeting.light, meeting.left, meeting.onward);
                 let Some(mut exit) = meeting.exit() else { return };
                 let own = exit.weight;
