@@ -10,14 +10,14 @@ var<private> given_up: f32;
 // Handles light that leaves the body. The light leaves for good by `leave`, or waits to enter the body again. Light
 // that is too weak to wait, or finds no room, is given up.
 fn depart(departing: Inbound) {
-    let weight = (departing.light.x + departing.light.y) * departing.left;
+    let weight = weight_of(departing.light) * departing.left;
     let met = again(departing.ray.origin, departing.ray.direction);
     let ray = outward(departing.ray);
     if is_spent() {
         given_up += weight;
     } else if met.distance < 0.0 || is_taken(ray, met.distance * unit()) {
         leave(ray, weight, outward_polarisation(departing), departing.bounce == 0u);
-    } else if weight > frame.limits.x && inbound_count < MOST_INBOUND {
+    } else if weight > frame.least_weight && inbound_count < MOST_INBOUND {
         inbound[inbound_count] = departing;
         inbound[inbound_count].met = met;
         inbound_count += 1u;
@@ -37,7 +37,7 @@ fn follow(ray: Ray, entered: Meeting, weight: f32, polarisation: Polarisation) -
         var most = -1.0;
         for (var k = 0u; k < inbound_count; k++) {
             turns += 1u;
-            let own = (inbound[k].light.x + inbound[k].light.y) * inbound[k].left;
+            let own = weight_of(inbound[k].light) * inbound[k].left;
             if own > most {
                 most = own;
                 strongest = k;

@@ -2,7 +2,7 @@
 
 // Passes light that leaves the body on to `leave`, because it never meets a convex stone again.
 fn depart(departing: Inbound) {
-    let weight = (departing.light.x + departing.light.y) * departing.left;
+    let weight = weight_of(departing.light) * departing.left;
     leave(outward(departing.ray), weight, outward_polarisation(departing), departing.bounce == 0u);
 }
 

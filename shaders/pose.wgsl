@@ -18,17 +18,17 @@ fn world_vector(v: vec3f) -> vec3f {
 
 // Returns the length in the world of the unit of the body's frame.
 fn unit() -> f32 {
-    return body.place.w;
+    return body.unit;
 }
 
 // Returns the place in the world of a point of the body.
 fn place(point: vec3f) -> vec3f {
-    return world_vector(point) * unit() + body.place.xyz;
+    return world_vector(point) * unit() + body.place;
 }
 
 // Returns the point of the body at a place in the world.
 fn unplace(place: vec3f) -> vec3f {
-    return own_vector(place - body.place.xyz) / unit();
+    return own_vector(place - body.place) / unit();
 }
 
 // Returns the facet by which a ray of the world enters the body, and the distance to it in the world; the distance is

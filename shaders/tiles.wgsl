@@ -4,10 +4,10 @@
 // Returns the column and the row, in the strip, of an invocation's pixel, which may lie beyond the strip.
 fn strip_pixel(group: vec3u, within: vec2u) -> vec2u {
     let number = group.x + group.y * GROUPS_ACROSS;
-    if number >= frame.tiles.y {
+    if number >= frame.tile_count {
         return vec2u(NONE);
     }
-    let tile = (frame.tiles.x + number) * frame.tiles.z % frame.tiles.w;
-    let across = (frame.film.x + 7u) / 8u;
+    let tile = (frame.first_tile + number) * frame.tile_stride % frame.all_tiles;
+    let across = (frame.size.x + 7u) / 8u;
     return vec2u(tile % across, tile / across) * 8u + within;
 }

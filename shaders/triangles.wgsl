@@ -6,8 +6,8 @@ const BEHIND: f32 = 1e-6;
 
 fn plane_of(facet: u32) -> vec4f {
     let t = triangles[facet];
-    let normal = vec3f(t.a.w, t.b.w, t.c.w);
-    return vec4f(normal, dot(normal, t.a.xyz));
+    let normal = triangle_normal(t);
+    return vec4f(normal, dot(normal, t.a));
 }
 
 fn entry(origin: vec3f, direction: vec3f) -> Meeting {
@@ -20,5 +20,5 @@ fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
 
 // Returns the first triangle of the present body that a ray runs into (side -1) or out of (side 1).
 fn of_solid(origin: vec3f, direction: vec3f, side: f32) -> Meeting {
-    return nearest_triangle(origin, direction, side, NONE, -BEHIND * bitcast<f32>(body.range.y));
+    return nearest_triangle(origin, direction, side, NONE, -BEHIND * mesh_range().reach);
 }

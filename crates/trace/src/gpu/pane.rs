@@ -74,7 +74,7 @@ impl<'a> PaneStage<'a> {
     pub fn draw(&self, pane: &PaneData) -> Result<(), GpuError> {
         let pipeline = self.gpu.panes.get_or_init(|| compiled(&self.gpu.device, pane_source()));
         let [width, height] = self.size;
-        let data = PaneData { size: [width, height, pane.size[2], pane.size[3]], ..*pane };
+        let data = PaneData { size: self.size, ..*pane };
         self.gpu.queue.write_buffer(&self.data, 0, bytemuck::bytes_of(&data));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {

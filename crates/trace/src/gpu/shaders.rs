@@ -79,7 +79,8 @@ const BVH: [&str; 3] =
     [gpu_types::TRIANGLE_WGSL, gpu_types::BVH_NODE_WGSL, include_str!("../../../../shaders/bvh.wgsl")];
 
 /// The parts that metal under light needs in addition to [`BVH`].
-const METAL: [&str; 3] = [
+const METAL: [&str; 4] = [
+    gpu_types::FINISH_WGSL,
     include_str!("../../../../shaders/random.wgsl"),
     include_str!("../../../../shaders/microfacets.wgsl"),
     include_str!("../../../../shaders/metal.wgsl"),
