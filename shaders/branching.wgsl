@@ -1,5 +1,7 @@
 // Exits from solids that need not be convex: light that leaves may enter again. This is the twin of
 // crates/trace/src/ray/tree.rs.
+//
+// Imports: trace, pose.
 
 // Light that has left the body, will meet it again and waits to be followed.
 var<private> inbound: array<Inbound, MOST_INBOUND>;

@@ -1,4 +1,6 @@
 // Intersection of rays with triangles in boxes within boxes: the twin of crates/math/src/bvh.rs.
+//
+// Imports: Triangle, BvhNode, Body, trace.
 
 @group(0) @binding(11) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(12) var<storage, read> nodes: array<BvhNode>;

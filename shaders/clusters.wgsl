@@ -1,5 +1,7 @@
 // Intersection of rays with convex stones of many planes. Planes of similar normals and offsets form a cluster, and a
 // cluster is searched only where its bound shows that it may hold the wanted facet.
+//
+// Imports: Cluster, leaving, flat, convex.
 
 @group(0) @binding(1) var<storage, read> planes: array<vec4f>;
 @group(0) @binding(3) var<storage, read> clusters: array<Cluster>;

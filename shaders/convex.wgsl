@@ -1,4 +1,6 @@
 // Exits from convex stones.
+//
+// Imports: trace, pose.
 
 // Passes light that leaves the body on to `leave`, because it never meets a convex stone again.
 fn depart(departing: Inbound) {

@@ -1,5 +1,7 @@
 // The environment around the stones, the twin of crates/trace/src/environment.rs. Light is radiance in four
 // channels: of the key illuminant's spectrum, and of red, green and blue.
+//
+// Imports: Environment, Lamp.
 
 @group(0) @binding(6) var<uniform> environment: Environment;
 @group(0) @binding(7) var<uniform> lamps: array<Lamp, MOST_LAMPS>;

@@ -1,5 +1,7 @@
 // Intersection of rays with glass shapes (implicit surfaces). In its frame, each shape reaches 1 from the origin.
 // This is the twin of crates/math/src/implicit/roots.rs and of crates/trace/src/ray/facets.rs.
+//
+// Imports: ImplicitSurface, jets, trace.
 
 @group(0) @binding(1) var<uniform> fields: array<ImplicitSurface, MOST_BODIES>;
 

@@ -1,6 +1,8 @@
 // The functions of glass shapes (implicit surfaces) and their derivatives, in the shape's own frame and in units of
 // its reach: the twin of crates/math/src/implicit/jet.rs, profile.rs, body.rs and wave.rs. Of the second
 // derivatives, only the product with one displacement is computed.
+//
+// Imports: ImplicitSurface.
 
 // The least divisor, which is smaller than any radius that a shape is meant to have.
 const LEAST_RADIUS: f32 = 1e-6;

@@ -1,5 +1,7 @@
 // Finds the plane that a ray inside a convex body meets first. It is the plane with the greatest ratio of the speed
 // toward it to the gap before it; ratios are compared without a division.
+//
+// Imports: Body, trace.
 
 // The present body's planes, and its clusters: the first of each, and the one after the last.
 struct PlaneRange {

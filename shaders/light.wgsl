@@ -1,4 +1,6 @@
 // The colour that a camera sees of stones and metal under light, one band of wavelengths after the other.
+//
+// Imports: Response, RadiancePixel, environment, trace, pose, camera, tiles.
 
 @group(0) @binding(2) var<storage, read_write> lit: array<RadiancePixel>;
 @group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS + 1u>;

@@ -1,5 +1,7 @@
 // Panes of liquid glass: the twin of crates/picture/src/liquid_glass, whose functions have the same names and
 // describe them. The tests are in crates/picture/src/liquid_glass/on_card.rs.
+//
+// Imports: PaneData.
 
 @group(0) @binding(0) var<uniform> pane: PaneData;
 @group(0) @binding(1) var<storage, read> background: array<vec4f>;

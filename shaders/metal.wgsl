@@ -1,6 +1,8 @@
 // Bodies of metal beside the stones. This is the twin of crates/trace/src/ray/metal_tracer.rs, of its use in
 // crates/trace/src/ray/scene_tracer.rs, of crates/trace/src/ray/lobe_luck.rs, and of the sieve in
 // crates/trace/src/ray/roulette.rs.
+//
+// Imports: Body, random, microfacets, bvh, light.
 
 @group(0) @binding(13) var<uniform> metals: array<Body, MOST_METALS>;
 @group(0) @binding(14) var<uniform> roughnesses: array<vec4f, MOST_ROUGHNESS_ROWS>;

@@ -6,6 +6,8 @@
 // of slopes and the mean loss of one reflection. The other rows are the steps of the table of `Roughness::once`: the
 // loss of one reflection at both ends of the step and in its mean, and the even light that is lost in all steps
 // before.
+//
+// Imports: Finish.
 
 const TAU: f32 = 6.2831855;
 // The greatest solid angle that a direction represents: the whole sphere.

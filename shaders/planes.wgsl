@@ -1,5 +1,7 @@
 // Intersection of rays with convex stones: their planes, n·x <= w, are tried one after the other. `clusters.wgsl` does the
 // same for stones of many planes.
+//
+// Imports: leaving, flat, convex.
 
 @group(0) @binding(1) var<uniform> planes: array<vec4f, MOST_PLANES>;
 

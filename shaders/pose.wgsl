@@ -1,5 +1,7 @@
 // The pose of the present body. Rays are carried into the frame in which the body was built, and light that leaves is
 // carried back. This is the twin of crates/math/src/pose.rs and of crates/trace/src/ray/instance_tracer.rs.
+//
+// Imports: Body, trace.
 
 // Rotates a vector by a unit quaternion.
 fn rotated(turn: vec4f, v: vec3f) -> vec3f {

@@ -1,4 +1,6 @@
 // Records, for each pixel of a picture in a scope, the energy by band and the bands of the strongest exits.
+//
+// Imports: Bands, ScopePixel, trace, pose, camera, tiles.
 
 @group(0) @binding(2) var<storage, read_write> seen: array<ScopePixel>;
 @group(0) @binding(6) var<uniform> bands: Bands;

@@ -2,6 +2,12 @@
 // there to `leave`, which scope.wgsl or light.wgsl defines. The functions `entry`, `next_facet` and `facet_normal`
 // describe the surface. Everything here is in the frame of the body, whose unit lengths and absorption have;
 // pose.wgsl converts to it and back.
+//
+// Imports: Frame, Body, Medium, optics.
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;
+@group(0) @binding(5) var<storage, read> media: array<vec4f>;
 
 // The least gap before a plane, so that one that rounding has put behind the point is met immediately; also the
 // least divisor of a step.

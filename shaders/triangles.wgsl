@@ -1,4 +1,6 @@
 // Intersection of rays with solids of triangles, by bvh.wgsl. This is the twin of crates/trace/src/ray/facets.rs.
+//
+// Imports: bvh, flat, branching.
 
 // The farthest that rounding may put a ray's start beyond the triangle that the ray is about to meet, as a part of
 // the solid's reach from its origin; it is some ten roundings.

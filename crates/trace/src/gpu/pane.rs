@@ -1,7 +1,8 @@
 //! Draws panes of liquid glass on a graphics card. No ray is traced.
 
 use super::device::{Gpu, GpuError};
-use super::gpu_types::{PANE_DATA_WGSL, PaneData};
+use super::gpu_types::PaneData;
+use super::imports::joined;
 use super::shaders::compiled;
 use wgpu::BufferUsages;
 
@@ -21,7 +22,7 @@ pub struct PaneStage<'a> {
 
 /// Returns the text of the shader.
 pub(super) fn pane_source() -> String {
-    [PANE_DATA_WGSL, include_str!("../../../../shaders/liquid_glass.wgsl")].concat()
+    joined(&["liquid_glass"])
 }
 
 impl<'a> PaneStage<'a> {

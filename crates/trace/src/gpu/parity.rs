@@ -8,6 +8,7 @@ mod rings;
 
 use super::Gpu;
 use super::gpu_types;
+use super::imports::joined;
 use super::pane::pane_source;
 use super::peak::{ARITHMETIC_WGSL, MEMORY_WGSL};
 use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
@@ -163,7 +164,7 @@ fn the_shaders_optics_are_those_of_the_library() {
     let etas = [1.0 / 2.4175, 0.75, 1.33, 1.77, 2.4175, 2.9];
     let given: Vec<[f32; 4]> =
         (0..6000).map(|k| [(k / 6) as f32 / 999.0, etas[k % 6], 0.001 * k as f32, 0.0]).collect();
-    let text = include_str!("../../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
+    let text = joined(&["optics"]) + MEETING_WGSL;
     let found = run(&gpu, text, &given, None);
     // The tolerance is the error of the root of 1e-3 in f32.
     let (count, largest) = compared(&given, &found, 1.0);
