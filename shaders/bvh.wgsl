@@ -1,4 +1,6 @@
 // Intersection of rays with triangles in boxes within boxes: the twin of crates/math/src/bvh.rs.
+//
+// Imports: Triangle, BvhNode, Body, trace.
 
 @group(0) @binding(11) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(12) var<storage, read> nodes: array<BvhNode>;
@@ -12,6 +14,24 @@ const STILLEST: f32 = 1e-20;
 // The boxes that wait to be opened in the present search, and the distances to them. They are kept once for all searches,
 // because compilers copy a search to each place that calls it.
 var<private> pending: array<vec2f, MOST_LEVELS>;
+
+// The place of the present body's triangles: its first box, the triangles' reach from the frame's origin, the number of
+// triangles between a triangle and its smooth normals, and, for metal, the number of its finish.
+struct MeshRange {
+    root: u32,
+    reach: f32,
+    normals: u32,
+    finish: u32,
+}
+
+fn mesh_range() -> MeshRange {
+    return MeshRange(body.range.x, bitcast<f32>(body.range.y), body.range.z, body.range.w);
+}
+
+// Returns the normal of a triangle's facet.
+fn triangle_normal(t: Triangle) -> vec3f {
+    return vec3f(t.normal_x, t.normal_y, t.normal_z);
+}
 
 // Permutes a vector's axes so that the longest component of a direction becomes z. Where that component is negative,
 // x and y are swapped too, so that nothing is mirrored.
@@ -29,8 +49,8 @@ fn turned_axes(v: vec3f, longest: u32, is_down: bool) -> vec3f {
 // before `far`. `per` is the reciprocal of the direction.
 fn enters(node: BvhNode, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32 {
     let is_up = per >= vec3f(0.0);
-    let near = (select(node.high.xyz + slack, node.low.xyz - slack, is_up) - origin) * per;
-    let beyond = (select(node.low.xyz - slack, node.high.xyz + slack, is_up) - origin) * per;
+    let near = (select(node.high + slack, node.low - slack, is_up) - origin) * per;
+    let beyond = (select(node.low - slack, node.high + slack, is_up) - origin) * per;
     let into = max(max(near.x, near.y), max(near.z, 0.0));
     let out = min(min(beyond.x, beyond.y), min(beyond.z, far));
     return select(-1.0, into, into <= out);
@@ -49,30 +69,30 @@ fn nearest_triangle(origin: vec3f, direction: vec3f, side: f32, left: u32, after
     let is_down = straight.z < 0.0;
     let d = turned_axes(direction, longest, is_down);
     let shear = vec3f(d.x / d.z, d.y / d.z, 1.0 / d.z);
-    let reach = bitcast<f32>(body.range.y);
-    let slack = BOX_SLACK * (reach + length(origin));
+    let range = mesh_range();
+    let slack = BOX_SLACK * (range.reach + length(origin));
     let clamped = select(select(vec3f(-STILLEST), vec3f(STILLEST), direction >= vec3f(0.0)), direction, size > vec3f(STILLEST));
     let per = 1.0 / clamped;
     var best = Meeting(NONE, FAR);
     var waiting = 0u;
-    var at = body.range.x;
+    var at = range.root;
     var is_open = enters(nodes[at], origin, per, slack, FAR) >= 0.0;
     while is_open && !is_spent() {
         turns += 1u;
         let node = nodes[at];
-        let count = u32(node.high.w);
+        let count = node.count;
         var goes_on = false;
         if count > 0u {
-            let first = u32(node.low.w);
+            let first = node.start;
             for (var k = first; k < first + count; k++) {
                 turns += 1u;
                 let t = triangles[k];
-                if k == left || (side != 0.0 && dot(vec3f(t.a.w, t.b.w, t.c.w), direction) * side <= 0.0) {
+                if k == left || (side != 0.0 && dot(triangle_normal(t), direction) * side <= 0.0) {
                     continue;
                 }
-                let a0 = turned_axes(t.a.xyz - origin, longest, is_down);
-                let b0 = turned_axes(t.b.xyz - origin, longest, is_down);
-                let c0 = turned_axes(t.c.xyz - origin, longest, is_down);
+                let a0 = turned_axes(t.a - origin, longest, is_down);
+                let b0 = turned_axes(t.b - origin, longest, is_down);
+                let c0 = turned_axes(t.c - origin, longest, is_down);
                 let a = a0.xy - shear.xy * a0.z;
                 let b = b0.xy - shear.xy * b0.z;
                 let c = c0.xy - shear.xy * c0.z;
@@ -88,7 +108,7 @@ fn nearest_triangle(origin: vec3f, direction: vec3f, side: f32, left: u32, after
             }
         } else {
             let left = at + 1u;
-            let right = at + u32(node.low.w);
+            let right = at + node.start;
             let to_left = enters(nodes[left], origin, per, slack, best.distance);
             let to_right = enters(nodes[right], origin, per, slack, best.distance);
             goes_on = to_left >= 0.0 || to_right >= 0.0;

@@ -1,5 +1,7 @@
 // The environment around the stones, the twin of crates/trace/src/environment.rs. Light is radiance in four
 // channels: of the key illuminant's spectrum, and of red, green and blue.
+//
+// Imports: Environment, Lamp.
 
 @group(0) @binding(6) var<uniform> environment: Environment;
 @group(0) @binding(7) var<uniform> lamps: array<Lamp, MOST_LAMPS>;
@@ -33,7 +35,7 @@ fn sky_texel(at: vec2i, level: i32, size: i32) -> vec4f {
 
 // Interpolates one level of the map.
 fn sky_level(at: vec2f, level: i32) -> vec4f {
-    let size = i32(environment.right.w) >> u32(level);
+    let size = i32(environment.map_side) >> u32(level);
     let p = at * f32(size) - 0.5;
     let base = vec2i(floor(p));
     let part = p - floor(p);
@@ -44,8 +46,8 @@ fn sky_level(at: vec2f, level: i32) -> vec4f {
 
 // Returns the map's light from a direction, averaged over an angle in radians.
 fn sky_at(direction: vec3f, angle: f32) -> vec4f {
-    let texels = angle * environment.right.w / TEXEL_ANGLE;
-    let level = clamp(log2(max(texels, 1.0)), 0.0, environment.zenith.w);
+    let texels = angle * environment.map_side / TEXEL_ANGLE;
+    let level = clamp(log2(max(texels, 1.0)), 0.0, environment.last_level);
     let at = octahedral(direction);
     let fine = i32(floor(level));
     let whole = sky_level(at, fine);
@@ -129,13 +131,13 @@ fn photo_level(at: vec2f, level: i32) -> vec3f {
 // Returns a ray whose fan alone covers, to first order, the same stretch of the backplate's plane as its fan and its
 // shift together. `height` is the ray's height above the plane.
 fn fanned_onto_plane(ray: Ray, height: f32) -> Ray {
-    let along = ray.shift * -dot(ray.direction, frame.toward.xyz) + ray.direction * dot(ray.shift, frame.toward.xyz);
+    let along = ray.shift * -dot(ray.direction, frame.toward) + ray.direction * dot(ray.shift, frame.toward);
     return Ray(ray.origin, ray.direction, ray.fan + along / max(height, LEAST_HEIGHT), vec3f(0.0));
 }
 
 // Returns the speed at which a ray approaches the backplate's plane, at a part of its fan from its middle.
 fn photo_speed(ray: Ray, part: f32) -> f32 {
-    return -dot(ray.direction + ray.fan * part, frame.toward.xyz);
+    return -dot(ray.direction + ray.fan * part, frame.toward);
 }
 
 // Returns the place, in the backplate's pixels from the middle of the first, that a ray meets at a part of its fan.
@@ -143,7 +145,7 @@ fn photo_speed(ray: Ray, part: f32) -> f32 {
 fn photo_place(ray: Ray, height: f32, part: f32) -> vec2f {
     let p = ray.origin + (ray.direction + ray.fan * part) * (height / max(photo_speed(ray, part), ALONG));
     let size = vec2f(textureDimensions(photo));
-    let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / environment.photo.y + 0.5;
+    let on = vec2f(dot(p, frame.right), -dot(p, frame.up)) / environment.backplate_width + 0.5;
     // `on` is in units of the picture's width along both axes.
     return vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
 }
@@ -157,11 +159,11 @@ fn photo_passed(along: f32, speeds: vec2f) -> f32 {
 // Returns the light of the backplate along a ray; a is the part of the ray's fan that meets the backplate. It is the
 // twin of `Backplate::at` and of `Mipmap::along`.
 fn photo_at(arriving: Ray) -> vec4f {
-    let height = dot(arriving.origin, frame.toward.xyz) + environment.photo.x;
+    let height = dot(arriving.origin, frame.toward) + environment.backplate_distance;
     let ray = fanned_onto_plane(arriving, height);
     let low = photo_speed(ray, -0.5);
     let high = photo_speed(ray, 0.5);
-    if max(low, high) <= ALONG || height <= 0.0 || environment.photo.y <= 0.0 {
+    if max(low, high) <= ALONG || height <= 0.0 || environment.backplate_width <= 0.0 {
         return vec4f(0.0);
     }
     let first = -0.5 + select((ALONG - low) / (high - low), 0.0, low > ALONG);
@@ -218,31 +220,31 @@ fn radiance(ray: Ray, spread: f32) -> vec4f {
 fn beyond(ray: Ray, spread: f32) -> vec4f {
     let fanned = length(ray.fan);
     let d = vec3f(
-        dot(environment.right.xyz, ray.direction),
-        dot(environment.up.xyz, ray.direction),
-        dot(environment.zenith.xyz, ray.direction),
+        dot(environment.right, ray.direction),
+        dot(environment.up, ray.direction),
+        dot(environment.zenith, ray.direction),
     );
     let fan = vec3f(
-        dot(environment.right.xyz, ray.fan),
-        dot(environment.up.xyz, ray.fan),
-        dot(environment.zenith.xyz, ray.fan),
+        dot(environment.right, ray.fan),
+        dot(environment.up, ray.fan),
+        dot(environment.zenith, ray.fan),
     );
     var sum = sky_at(d, max(fanned, spread));
-    for (var k = 0u; k < u32(environment.up.w); k++) {
+    for (var k = 0u; k < environment.lamp_count; k++) {
         let lamp = lamps[k];
-        let away = d - lamp.toward.xyz;
+        let away = d - lamp.toward;
         if spread > fanned {
-            sum += lamp.radiance * share_of_disc(away, spread, lamp.toward.w);
+            sum += lamp.radiance * share_of_disc(away, spread, lamp.chord_squared);
         } else {
-            sum += lamp.radiance * share_inside(away, fan, lamp.toward.w);
+            sum += lamp.radiance * share_inside(away, fan, lamp.chord_squared);
         }
     }
     // The observer's head, where there is one, hides the light behind it; the edge of its shadow is as wide as the
     // fan.
-    if environment.photo.z > 1.0 {
+    if environment.cos_head > 1.0 {
         return sum;
     }
-    let width = max(fanned, environment.photo.w);
-    let clear = (environment.photo.z - dot(ray.direction, frame.toward.xyz)) / width + 0.5;
+    let width = max(fanned, environment.head_edge);
+    let clear = (environment.cos_head - dot(ray.direction, frame.toward)) / width + 0.5;
     return sum * clamp(clear, 0.0, 1.0);
 }

@@ -1,5 +1,7 @@
 // Intersection of rays with glass shapes (implicit surfaces). In its frame, each shape reaches 1 from the origin.
 // This is the twin of crates/math/src/implicit/roots.rs and of crates/trace/src/ray/facets.rs.
+//
+// Imports: ImplicitSurface, jets, trace.
 
 @group(0) @binding(1) var<uniform> fields: array<ImplicitSurface, MOST_BODIES>;
 
@@ -15,7 +17,7 @@ const FINE: f32 = 1e-3;
 // The least step of a ray outside; a smaller one would be lost to rounding.
 const LEAST_STEP: f32 = 1e-7;
 
-// Returns the present body's implicit surface.
+// Returns the present body's implicit surface, whose number among all shapes is the first of the body's range.
 fn present_field() -> ImplicitSurface {
     return fields[body.range.x];
 }
@@ -134,10 +136,10 @@ fn far_step(shape: ImplicitSurface, p: vec3f, on: vec3f, at: vec2f, bend_at_most
     let level = max(at.x, 0.0);
     let depth = max(-at.x, 0.0);
     let squared = dot(on, on);
-    let beyond = shape.size.z / sqrt(squared) - dot(p, on) / squared;
+    let beyond = shape.body_reach / sqrt(squared) - dot(p, on) / squared;
     // Beyond this, the displacement alone puts every point outside the body. The function is convex, so its root is
     // no farther than the root of its tangent.
-    var s = min(beyond, sqrt(2.0 * (shape.size.x + shape.size.y) / max(bend_at_most, LEAST_GAP)));
+    var s = min(beyond, sqrt(2.0 * (shape.half + shape.edge) / max(bend_at_most, LEAST_GAP)));
     if at.y > 0.0 {
         s = min(s, depth / at.y);
     }

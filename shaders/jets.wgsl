@@ -1,6 +1,8 @@
 // The functions of glass shapes (implicit surfaces) and their derivatives, in the shape's own frame and in units of
 // its reach: the twin of crates/math/src/implicit/jet.rs, profile.rs, body.rs and wave.rs. Of the second
 // derivatives, only the product with one displacement is computed.
+//
+// Imports: ImplicitSurface.
 
 // The least divisor, which is smaller than any radius that a shape is meant to have.
 const LEAST_RADIUS: f32 = 1e-6;
@@ -47,26 +49,26 @@ fn sign_of(x: f32) -> f32 {
 }
 
 fn rectangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet {
-    let x = plane_jet(abs(p.x) - shape.outline.x, vec3f(sign_of(p.x), 0.0, 0.0));
-    let y = plane_jet(abs(p.y) - shape.outline.y, vec3f(0.0, sign_of(p.y), 0.0));
-    var jet = shared_by(x, y, by, sharp && shape.outline.z == 0.0);
-    jet.value -= shape.outline.z;
+    let x = plane_jet(abs(p.x) - shape.corner.x, vec3f(sign_of(p.x), 0.0, 0.0));
+    let y = plane_jet(abs(p.y) - shape.corner.y, vec3f(0.0, sign_of(p.y), 0.0));
+    var jet = shared_by(x, y, by, sharp && shape.round == 0.0);
+    jet.value -= shape.round;
     return jet;
 }
 
 fn triangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet {
     let side = sign_of(p.y);
     let folded = vec2f(abs(p.y), p.z);
-    let from_corner = folded - shape.outline.xy;
-    let up = dot(from_corner, vec2f(-shape.flank.y, shape.flank.x));
+    let from_corner = folded - shape.corner;
+    let up = dot(from_corner, vec2f(-shape.flank_normal.y, shape.flank_normal.x));
     // Beyond a flank's end the nearest point is a corner; elsewhere it lies on a side.
-    let is_above = up > shape.flank.z;
+    let is_above = up > shape.flank_length;
     if !sharp && (is_above || (up < 0.0 && from_corner.x > 0.0)) {
-        let away = select(from_corner, folded - vec2f(0.0, shape.outline.z), is_above);
+        let away = select(from_corner, folded - vec2f(0.0, shape.round), is_above);
         return radial(vec3f(0.0, side * away.x, away.y), vec3f(0.0, by.yz));
     }
     let base = plane_jet(-from_corner.y, vec3f(0.0, 0.0, -1.0));
-    let flank = plane_jet(dot(shape.flank.xy, from_corner), vec3f(0.0, side * shape.flank.x, shape.flank.y));
+    let flank = plane_jet(dot(shape.flank_normal, from_corner), vec3f(0.0, side * shape.flank_normal.x, shape.flank_normal.y));
     if base.value > flank.value {
         return base;
     }
@@ -76,18 +78,18 @@ fn triangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet
 // Returns the jet of the body's function for a point on the surface or on the way to it. It is the twin of
 // `RoundedBody::jet`.
 fn body_jet(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
-    let sharp = shape.size.y == 0.0;
+    let sharp = shape.edge == 0.0;
     var outline: Jet;
     var end: Jet;
-    if shape.outline.w > 0.0 {
+    if shape.is_triangle == 1u {
         outline = triangle_jet(shape, p, by, sharp);
-        end = plane_jet(abs(p.x) - shape.size.x, vec3f(sign_of(p.x), 0.0, 0.0));
+        end = plane_jet(abs(p.x) - shape.half, vec3f(sign_of(p.x), 0.0, 0.0));
     } else {
         outline = rectangle_jet(shape, p, by, sharp);
-        end = plane_jet(abs(p.z) - shape.size.x, vec3f(0.0, 0.0, sign_of(p.z)));
+        end = plane_jet(abs(p.z) - shape.half, vec3f(0.0, 0.0, sign_of(p.z)));
     }
     var jet = shared_by(outline, end, by, sharp);
-    jet.value -= shape.size.y;
+    jet.value -= shape.edge;
     return jet;
 }
 
@@ -98,7 +100,7 @@ fn along(shape: ImplicitSurface, p: vec3f, direction: vec3f) -> vec2f {
 }
 
 fn has_wave(shape: ImplicitSurface) -> bool {
-    return shape.flank.w > 0.0;
+    return shape.has_wave == 1u;
 }
 
 // Returns sines and cosines of angles given in turns, exact to some roundings. Cards guarantee their own functions
@@ -128,11 +130,11 @@ struct Wave {
 }
 
 fn wave_at(shape: ImplicitSurface, p: vec3f) -> Wave {
-    let angles = sin_cos(vec2f(p.x - p.y, p.x + p.y) * shape.wave.y + vec2f(0.0, 2.0 * shape.wave.z));
+    let angles = sin_cos(vec2f(p.x - p.y, p.x + p.y) * shape.waves + vec2f(0.0, 2.0 * shape.phase));
     let sines = angles[0];
     let cosines = angles[1];
-    let number = TURN * shape.wave.y;
-    let half = 0.5 * shape.wave.x;
+    let number = TURN * shape.waves;
+    let half = 0.5 * shape.amplitude;
     let rise = vec2f(sines.y - sines.x, sines.y + sines.x) * (half * number);
     let bend = vec2f(cosines.y - cosines.x, cosines.y + cosines.x) * (half * number * number);
     return Wave(rise, half * (cosines.x - cosines.y), bend);
@@ -140,8 +142,8 @@ fn wave_at(shape: ImplicitSurface, p: vec3f) -> Wave {
 
 // Returns an upper bound for the rate of change of the wave's slope along a line of this direction.
 fn most_bend(shape: ImplicitSurface, direction: vec3f) -> f32 {
-    let number = TURN * shape.wave.y;
-    return shape.wave.x * number * number * dot(direction.xy, direction.xy);
+    let number = TURN * shape.waves;
+    return shape.amplitude * number * number * dot(direction.xy, direction.xy);
 }
 
 // Returns the jet of the shape's function for a point on the surface: that of the body, sheared by the wave as in

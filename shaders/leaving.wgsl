@@ -1,5 +1,19 @@
 // Finds the plane that a ray inside a convex body meets first. It is the plane with the greatest ratio of the speed
 // toward it to the gap before it; ratios are compared without a division.
+//
+// Imports: Body, trace.
+
+// The present body's planes, and its clusters: the first of each, and the one after the last.
+struct PlaneRange {
+    first: u32,
+    end: u32,
+    first_cluster: u32,
+    end_cluster: u32,
+}
+
+fn plane_range() -> PlaneRange {
+    return PlaneRange(body.range.x, body.range.y, body.range.z, body.range.w);
+}
 
 // The nearest plane so far, the ray's speed toward it, and the gap before it.
 struct Leaving {

@@ -1,4 +1,6 @@
 // The colour that a camera sees of stones and metal under light, one band of wavelengths after the other.
+//
+// Imports: Response, RadiancePixel, environment, trace, pose, camera, tiles.
 
 @group(0) @binding(2) var<storage, read_write> lit: array<RadiancePixel>;
 @group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS + 1u>;
@@ -20,6 +22,7 @@ struct Left {
 struct Waiting {
     ray: Ray,
     weight: f32,
+    polarisation: Polarisation,
     first: First,
     chances: Chances,
     // The side of the square of directions that the ray represents; 0 for one direction.
@@ -43,7 +46,7 @@ var<private> straight: Ray;
 // Returns the ray along which light is looked up. It is the twin of `SamplePass::mixed` in
 // crates/trace/src/sampling.rs.
 fn mixed(ray: Ray) -> Ray {
-    let strength = frame.sample.x;
+    let strength = frame.strength;
     if strength >= 1.0 || dot(ray.direction, straight.direction) <= 0.0 {
         return ray;
     }
@@ -65,19 +68,20 @@ fn see(leaving: Ray, weight: f32, spread: f32, is_mirrored: bool) {
         ray = mixed(leaving);
     }
     let light = radiance(ray, spread) * weight;
-    sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
+    let colour = response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
+    sum.colour += colour.xyz;
 }
 
-// Whether a ray runs through a ball, whose radius is the fourth number.
-fn is_near(ball: vec4f, ray: Ray) -> bool {
-    let away = ball.xyz - ray.origin;
+// Returns whether a ray runs through a ball.
+fn is_near(middle: vec3f, radius: f32, ray: Ray) -> bool {
+    let away = middle - ray.origin;
     let along = dot(away, ray.direction);
-    return along > -ball.w && dot(away, away) - along * along < ball.w * ball.w;
+    return along > -radius && dot(away, away) - along * along < radius * radius;
 }
 
 // Returns whether there are bodies that a ray may meet after it has left one.
 fn has_others() -> bool {
-    return frame.counts.x > 1u || frame.most.z > 0u;
+    return frame.stone_count > 1u || frame.metal_count > 0u;
 }
 
 // Returns the first hit of a ray. The body that is traced stays the present one.
@@ -85,10 +89,10 @@ fn first_body(ray: Ray, left: Left) -> First {
     let own = body;
     var first = First(NONE, Meeting(0u, -1.0));
     if COUNTS_TURNS {
-        turns += frame.counts.x;
+        turns += frame.stone_count;
     }
-    for (var k = 0u; k < frame.counts.x; k++) {
-        if k == left.body || !is_near(bodies[k].middle, ray) {
+    for (var k = 0u; k < frame.stone_count; k++) {
+        if k == left.body || !is_near(bodies[k].middle, bodies[k].radius, ray) {
             continue;
         }
         body = bodies[k];
@@ -109,8 +113,8 @@ fn is_taken(ray: Ray, distance: f32) -> bool {
     }
     let own = body;
     var found = false;
-    for (var k = 0u; k < frame.counts.x; k++) {
-        if !found && k != present && is_near(bodies[k].middle, ray) {
+    for (var k = 0u; k < frame.stone_count; k++) {
+        if !found && k != present && is_near(bodies[k].middle, bodies[k].radius, ray) {
             body = bodies[k];
             let met = meet(ray.origin, ray.direction).distance;
             found = met > 0.0 && met < distance;
@@ -122,23 +126,23 @@ fn is_taken(ray: Ray, distance: f32) -> bool {
 }
 
 // Handles light that leaves the present stone.
-fn leave(ray: Ray, weight: f32, is_surface: bool) {
+fn leave(ray: Ray, weight: f32, polarisation: Polarisation, is_surface: bool) {
     exits += 1u;
-    onward(ray, weight, spread_before, Left(present, NONE), chances_beyond(chances, exits));
+    onward(ray, weight, polarisation, spread_before, Left(present, NONE), chances_beyond(chances, exits));
 }
 
 // Handles light that has left a body. Light that meets another body waits to be followed, and all other light is
 // looked up. `spread` is the side of the square of directions that the ray represents.
-fn onward(ray: Ray, weight: f32, spread: f32, left: Left, own: Chances) {
+fn onward(ray: Ray, weight: f32, polarisation: Polarisation, spread: f32, left: Left, own: Chances) {
     if has_others() {
         let first = first_body(ray, left);
         if first.body != NONE || is_spent() {
             let kept = sieved(weight);
-            if count < MOST_WAITING && kept > frame.limits.x {
-                waiting[count] = Waiting(ray, kept, first, own, spread);
+            if count < MOST_WAITING && kept > frame.least_weight {
+                waiting[count] = Waiting(ray, kept, polarisation, first, own, spread);
                 count += 1u;
             } else {
-                sum.rest.x += kept;
+                sum.unresolved += kept;
             }
             return;
         }
@@ -150,7 +154,7 @@ fn onward(ray: Ray, weight: f32, spread: f32, left: Left, own: Chances) {
 // environment is looked up.
 fn go(next: Waiting, wavelength: u32) {
     if is_spent() {
-        sum.rest.x += next.weight;
+        sum.unresolved += next.weight;
         return;
     }
     if next.first.body == NONE {
@@ -167,19 +171,20 @@ fn go(next: Waiting, wavelength: u32) {
     }
     present = next.first.body;
     body = bodies[present];
-    medium = medium_of(media[present * frame.counts.y + wavelength]);
-    let rest = follow(next.ray, next.first.met, next.weight);
-    sum.rest += vec4f(rest.unresolved, rest.absorbed, 0.0, 0.0);
+    medium = medium_of(media[present * frame.wavelength_count + wavelength]);
+    let rest = follow(next.ray, next.first.met, next.weight, next.polarisation);
+    sum.unresolved += rest.unresolved;
+    sum.absorbed += rest.absorbed;
 }
 
 @compute @workgroup_size(8, 8)
 fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: vec3u) {
     let place = strip_pixel(group, id.xy);
-    if place.x >= frame.film.x || place.y >= frame.film.w {
+    if place.x >= frame.size.x || place.y >= frame.row_count {
         return;
     }
-    let pixel = vec2u(place.x, frame.film.z + place.y);
-    straight = pixel_ray(pixel, frame.limits.zw);
+    let pixel = vec2u(place.x, frame.first_row + place.y);
+    straight = pixel_ray(pixel, frame.place);
     // The ray meets the first body at the same point in all wavelengths.
     let first = first_body(straight, Left(NONE, NONE));
     let is_beside = first.body == NONE;
@@ -187,19 +192,19 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
         return;
     }
     let turns_before = turns;
-    let at = place.y * frame.film.x + place.x;
+    let at = place.y * frame.size.x + place.x;
     // Each wavelength is summed separately, so that the sum does not depend on the number of wavelengths in a
     // dispatch.
     var total = lit[at];
-    for (var w = frame.turn.z; w < frame.turn.w; w++) {
+    for (var w = frame.first_wavelength; w < frame.end_wavelength; w++) {
         // Light that meets no body is the same at all wavelengths, so it is looked up once for all of them.
         if is_beside && w > 0u {
             break;
         }
         sum = RadiancePixel();
         turns = turns_before;
-        response = responses[select(w, frame.counts.y, is_beside)];
-        var next = Waiting(straight, 1.0, first, chances_of_pixel(pixel, w), 0.0);
+        response = responses[select(w, frame.wavelength_count, is_beside)];
+        var next = Waiting(straight, 1.0, no_polarisation(), first, chances_of_pixel(pixel, w), 0.0);
         // `go` is called at one place for all light, because compilers inline it with everything it calls, which
         // takes some of them long.
         loop {
@@ -210,8 +215,10 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
             count -= 1u;
             next = waiting[count];
         }
-        total.colour += vec4f(sum.colour.xyz, select(1.0, f32(frame.counts.y), is_beside));
-        total.rest += sum.rest;
+        total.colour += sum.colour;
+        total.cover += select(1.0, f32(frame.wavelength_count), is_beside);
+        total.unresolved += sum.unresolved;
+        total.absorbed += sum.absorbed;
     }
     lit[at] = total;
 }

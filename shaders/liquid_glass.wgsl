@@ -1,5 +1,7 @@
 // Panes of liquid glass: the twin of crates/picture/src/liquid_glass, whose functions have the same names and
 // describe them. The tests are in crates/picture/src/liquid_glass/on_card.rs.
+//
+// Imports: PaneData.
 
 @group(0) @binding(0) var<uniform> pane: PaneData;
 @group(0) @binding(1) var<storage, read> background: array<vec4f>;
@@ -27,9 +29,9 @@ struct DomePoint {
 
 // Returns the ramps along x and y, and their slopes.
 fn ramp(at: vec2f) -> vec4f {
-    let half = pane.half_level.xy;
-    let level = pane.half_level.zw;
-    let round = pane.round_corner.xy;
+    let half = pane.half;
+    let level = pane.level;
+    let round = pane.round;
     let part = abs(at) / half;
     let rim = max(abs(at) - level, vec2f(0.0)) / (half - level);
     let value = round * part * part + (1.0 - round) * rim * rim * rim;
@@ -39,19 +41,19 @@ fn ramp(at: vec2f) -> vec4f {
 
 fn field(at: vec2f) -> PaneField {
     let ramps = ramp(at);
-    let corner = pane.round_corner.z;
+    let corner = pane.corner;
     let slope = ramps.zw * (1.0 - corner * ramps.yx);
     return PaneField(ramps.x + ramps.y - corner * ramps.x * ramps.y, slope);
 }
 
 fn outline_distance(at: vec2f) -> f32 {
     let here = field(at);
-    let beside = abs(at) - pane.half_level.xy;
+    let beside = abs(at) - pane.half;
     return max((here.value - 1.0) / max(length(here.slope), FLAT), max(beside.x, beside.y));
 }
 
 fn dome(at: vec2f) -> DomePoint {
-    let half = pane.half_level.xy;
+    let half = pane.half;
     let here = field(clamp(at, -half, half));
     let value = clamp(here.value, 0.0, 1.0);
     let normal = vec3f(here.slope * (0.5 * min(half.x, half.y)), sqrt(1.0 - value));
@@ -70,16 +72,16 @@ fn falloff(distance: f32) -> f32 {
 
 fn refraction(top: DomePoint) -> vec2f {
     let shift = top.normal.xy * 0.015 + top.radial * (top.distance * 0.008);
-    return shift * (falloff(top.distance) * pane.strengths.x);
+    return shift * (falloff(top.distance) * pane.refraction);
 }
 
 fn depth(top: DomePoint) -> vec2f {
-    let thickness = pane.strengths.y;
+    let thickness = pane.thickness;
     return (top.normal.xy * (thickness * 0.1) + vec2f(0.0, thickness * 0.05)) * (1.0 - 0.3 * top.distance);
 }
 
 fn dispersion(top: DomePoint) -> vec2f {
-    return top.radial * (top.distance * 0.003 * pane.strengths.z);
+    return top.radial * (top.distance * 0.003 * pane.dispersion);
 }
 
 fn pcg(v: u32) -> u32 {
@@ -106,12 +108,12 @@ fn roughness(at: vec2f) -> f32 {
 }
 
 fn blur(at: vec2f, top: DomePoint) -> f32 {
-    return (abs(top.normal.x) + abs(top.normal.y)) * pane.strengths.w * roughness(at) * BLUR;
+    return (abs(top.normal.x) + abs(top.normal.y)) * pane.frost * roughness(at) * BLUR;
 }
 
 fn brightness(normal: vec3f) -> f32 {
-    let diffuse = max(dot(normal, pane.toward.xyz), 0.0);
-    var shine = max(dot(normal, pane.between.xyz), 0.0);
+    let diffuse = max(dot(normal, pane.toward), 0.0);
+    var shine = max(dot(normal, pane.between), 0.0);
     for (var k = 0u; k < 5u; k += 1u) {
         shine *= shine;
     }
@@ -124,7 +126,7 @@ fn brightness(normal: vec3f) -> f32 {
 fn around(at: vec2i, by: vec2f) -> vec3f {
     let base = floor(by);
     let part = by - base;
-    let last = vec2i(pane.size.xy) - 1;
+    let last = vec2i(pane.size) - 1;
     let first = clamp(at + vec2i(base), vec2i(0), last);
     let next = clamp(at + vec2i(base) + 1, vec2i(0), last);
     let width = i32(pane.size.x);
@@ -151,9 +153,9 @@ fn frosted(at: vec2i, by: vec2f, sigma: f32) -> vec3f {
         return around(at, by);
     }
     var sum = vec3f(0.0);
-    for (var k = 0u; k < pane.size.z; k += 1u) {
+    for (var k = 0u; k < pane.sample_count; k += 1u) {
         var tap = three[min(k, 2u)];
-        if pane.size.z == 5u {
+        if pane.sample_count == 5u {
             tap = five[k];
         }
         sum += tap.z * around(at, by + tap.xy * (1.7320508 * sigma));
@@ -163,12 +165,12 @@ fn frosted(at: vec2i, by: vec2f, sigma: f32) -> vec3f {
 
 fn colour(at: vec2i, own: vec2f) -> vec3f {
     let top = dome(own);
-    let unit = pane.place.z;
+    let unit = pane.unit;
     let shift = -(refraction(top) + depth(top)) * unit;
     let apart = dispersion(top) * unit;
     let sigma = blur(own, top) * unit;
     var seen = frosted(at, shift, sigma);
-    if pane.strengths.z > 0.0 {
+    if pane.dispersion > 0.0 {
         seen.x = frosted(at, shift + apart * PARTS.x, sigma).x;
         seen.z = frosted(at, shift + apart * PARTS.z, sigma).z;
     }
@@ -177,17 +179,17 @@ fn colour(at: vec2i, own: vec2f) -> vec3f {
 
 @compute @workgroup_size(8, 8)
 fn draw(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= pane.size.xy) {
+    if any(id.xy >= pane.size) {
         return;
     }
     let k = id.y * pane.size.x + id.x;
     var pixel = vec4f(0.0);
-    if pane.size.w == 1u {
+    if pane.is_over == 1u {
         pixel = vec4f(background[k].xyz, 1.0);
     }
-    let own = (vec2f(id.xy) + 0.5 - pane.place.xy) / pane.place.z;
-    let cover = clamp(0.5 - outline_distance(own) * pane.place.z, 0.0, 1.0);
-    if cover > 0.0 && pane.size.z > 0u {
+    let own = (vec2f(id.xy) + 0.5 - pane.middle) / pane.unit;
+    let cover = clamp(0.5 - outline_distance(own) * pane.unit, 0.0, 1.0);
+    if cover > 0.0 && pane.sample_count > 0u {
         pixel += (vec4f(colour(vec2i(id.xy), own), 1.0) - pixel) * cover;
     }
     drawn[k] = pixel;

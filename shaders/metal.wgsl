@@ -1,6 +1,8 @@
 // Bodies of metal beside the stones. This is the twin of crates/trace/src/ray/metal_tracer.rs, of its use in
 // crates/trace/src/ray/scene_tracer.rs, of crates/trace/src/ray/lobe_luck.rs, and of the sieve in
 // crates/trace/src/ray/roulette.rs.
+//
+// Imports: Body, random, microfacets, bvh, light.
 
 @group(0) @binding(13) var<uniform> metals: array<Body, MOST_METALS>;
 @group(0) @binding(14) var<uniform> roughnesses: array<vec4f, MOST_ROUGHNESS_ROWS>;
@@ -44,7 +46,7 @@ var<private> level: f32;
 
 fn chances_of_pixel(pixel: vec2u, wavelength: u32) -> Chances {
     let seed = mixed_bits(vec2u(pixel.y, pixel.x));
-    let number = sum64(wide_product(frame.most.y, frame.counts.y), vec2u(wavelength, 0u));
+    let number = sum64(wide_product(frame.pass_number, frame.wavelength_count), vec2u(wavelength, 0u));
     return Chances(mixed_bits(seed ^ SALT), seed, number, 0u);
 }
 
@@ -61,26 +63,26 @@ fn is_reflected(own: Chances) -> bool {
 fn begin_sieve(own: Chances) {
     let seed = mixed_bits(own.roulette ^ mixed_bits(vec2u(0u)));
     let bits = mixed_bits(mixed_bits(sum64(seed, vec2u(EVEN, 0u))) ^ mixed_bits(own.number));
-    level = unit_of_bits(bits) * frame.limits.y;
+    level = unit_of_bits(bits) * frame.by_chance;
 }
 
 // Returns the weight with which light of this weight goes on to another body; 0 where chance ends it.
 fn sieved(weight: f32) -> f32 {
-    if weight > frame.limits.y {
+    if weight > frame.by_chance {
         return weight;
     }
     level += weight;
-    if level < frame.limits.y {
+    if level < frame.by_chance {
         return 0.0;
     }
-    level -= frame.limits.y;
-    return frame.limits.y;
+    level -= frame.by_chance;
+    return frame.by_chance;
 }
 
 // Returns one of the three numbers from 0 to below 1 by which metal draws a direction.
 fn drawn(own: Chances, k: u32, step: vec2u) -> f32 {
     let bits = mixed_bits(sum64(own.luck, vec2u(k, 0u)));
-    let number = vec2u(frame.most.y, 0u);
+    let number = vec2u(frame.pass_number, 0u);
     if own.reflections > 0u {
         return unit_of_bits(mixed_bits(bits ^ mixed_bits(number)));
     }
@@ -91,7 +93,7 @@ fn drawn(own: Chances, k: u32, step: vec2u) -> f32 {
 // the ray has just left, or NONE.
 fn metal_met(metal: u32, ray: Ray, left: u32) -> Meeting {
     body = metals[metal];
-    let after = select(AWAY * bitcast<f32>(body.range.y), 0.0, left == NONE);
+    let after = select(AWAY * mesh_range().reach, 0.0, left == NONE);
     let met = nearest_triangle(unplace(ray.origin), own_vector(ray.direction), 0.0, left, after);
     return Meeting(met.facet, met.distance * unit());
 }
@@ -99,9 +101,9 @@ fn metal_met(metal: u32, ray: Ray, left: u32) -> Meeting {
 // Returns the first hit of a ray on metal, or `stone` where that is nearer.
 fn with_metal(stone: First, ray: Ray, left: Left) -> First {
     var first = stone;
-    turns += frame.most.z;
-    for (var k = 0u; k < frame.most.z; k++) {
-        if !is_near(metals[k].middle, ray) {
+    turns += frame.metal_count;
+    for (var k = 0u; k < frame.metal_count; k++) {
+        if !is_near(metals[k].middle, metals[k].radius, ray) {
             continue;
         }
         let met = metal_met(k, ray, select(NONE, left.triangle, left.body == MOST_BODIES + k));
@@ -115,9 +117,9 @@ fn with_metal(stone: First, ray: Ray, left: Left) -> First {
 // Returns whether a ray meets metal before this distance.
 fn meets_metal(ray: Ray, before: f32) -> bool {
     var found = false;
-    turns += frame.most.z;
-    for (var k = 0u; k < frame.most.z; k++) {
-        if !found && is_near(metals[k].middle, ray) {
+    turns += frame.metal_count;
+    for (var k = 0u; k < frame.metal_count; k++) {
+        if !found && is_near(metals[k].middle, metals[k].radius, ray) {
             let distance = metal_met(k, ray, NONE).distance;
             found = distance >= 0.0 && distance < before;
         }
@@ -162,15 +164,15 @@ fn above(direction: vec3f, flat: vec3f) -> vec3f {
 // by which light is reflected.
 fn normals_at(triangle: u32, place: vec3f) -> array<vec3f, 2> {
     let t = triangles[triangle];
-    let corner = triangles[triangle + body.range.z];
-    let flat = vec3f(t.a.w, t.b.w, t.c.w);
+    let corner = triangles[triangle + mesh_range().normals];
+    let flat = triangle_normal(t);
     let point = unplace(place);
-    let a = t.a.xyz - point;
-    let b = t.b.xyz - point;
-    let c = t.c.xyz - point;
+    let a = t.a - point;
+    let b = t.b - point;
+    let c = t.c - point;
     // These are the areas of the three parts around the point, each opposite its corner.
     let shares = max(vec3f(dot(cross(b, c), flat), dot(cross(c, a), flat), dot(cross(a, b), flat)), vec3f(0.0));
-    let shading = corner.a.xyz * shares.x + corner.b.xyz * shares.y + corner.c.xyz * shares.z;
+    let shading = corner.a * shares.x + corner.b * shares.y + corner.c * shares.z;
     return array<vec3f, 2>(world_vector(flat), world_vector(normal_or(shading, flat)));
 }
 
@@ -178,18 +180,18 @@ fn normals_at(triangle: u32, place: vec3f) -> array<vec3f, 2> {
 // is the twin of `change_of_normal` in crates/math/src/shaded_mesh.rs.
 fn change_of_normal(triangle: u32, place: vec3f, world_step: vec3f) -> vec3f {
     let t = triangles[triangle];
-    let corner = triangles[triangle + body.range.z];
-    let flat = vec3f(t.a.w, t.b.w, t.c.w);
+    let corner = triangles[triangle + mesh_range().normals];
+    let flat = triangle_normal(t);
     let point = unplace(place);
     let step = own_vector(world_step) / unit();
-    let a = t.a.xyz - point;
-    let b = t.b.xyz - point;
-    let c = t.c.xyz - point;
+    let a = t.a - point;
+    let b = t.b - point;
+    let c = t.c - point;
     let shares = max(vec3f(dot(cross(b, c), flat), dot(cross(c, a), flat), dot(cross(a, b), flat)), vec3f(0.0));
     let changes =
         vec3f(dot(cross(step, b - c), flat), dot(cross(step, c - a), flat), dot(cross(step, a - b), flat));
-    let here = corner.a.xyz * shares.x + corner.b.xyz * shares.y + corner.c.xyz * shares.z;
-    let along = corner.a.xyz * changes.x + corner.b.xyz * changes.y + corner.c.xyz * changes.z;
+    let here = corner.a * shares.x + corner.b * shares.y + corner.c * shares.z;
+    let along = corner.a * changes.x + corner.b * changes.y + corner.c * changes.z;
     let square = dot(here, here);
     if square <= SHORT {
         return vec3f(0.0);
@@ -224,7 +226,7 @@ fn mirrored_fan(fan: vec3f, direction: vec3f, middle: vec3f, all_turn: vec3f) ->
 fn reflect_by_metal(next: Waiting, wavelength: u32) {
     let own = next.chances;
     if own.reflections >= MOST_REFLECTIONS {
-        sum.rest.x += next.weight;
+        sum.unresolved += next.weight;
         return;
     }
     body = metals[next.first.body - MOST_BODIES];
@@ -242,10 +244,11 @@ fn reflect_by_metal(next: Waiting, wavelength: u32) {
     let right = vec3f(1.0 + sign * up.x * up.x * a, sign * b, -sign * up.x);
     let ahead = vec3f(b, sign + up.y * up.y * a, -up.y);
     let seen = normalize(vec3f(dot(right, out), dot(ahead, out), max(dot(up, out), LEAST_SINE)));
-    let finish = media[frame.counts.x * frame.counts.y + body.range.w * frame.counts.y + wavelength];
+    let place_of_finish = (frame.stone_count + mesh_range().finish) * frame.wavelength_count + wavelength;
+    let finish = finish_of(media[place_of_finish]);
     let luck = vec3f(drawn(own, 0u, STEP_X), drawn(own, 1u, STEP_Y), drawn(own, 2u, STEP_Z));
     let found = sample_metal(finish, seen, luck);
-    sum.rest.y += next.weight * (1.0 - found.weight);
+    sum.absorbed += next.weight * (1.0 - found.weight);
     if found.weight <= 0.0 {
         return;
     }
@@ -260,5 +263,6 @@ fn reflect_by_metal(next: Waiting, wavelength: u32) {
         Chances(mixed_bits(own.luck ^ SALT), mixed_bits(own.roulette ^ by), own.number, own.reflections + 1u);
     let left = Left(next.first.body, hit.facet);
     let spread = wider(sqrt(found.solid_angle / PARTS), next.spread);
-    onward(ray, next.weight * found.weight, spread, left, later);
+    // Metal is taken to leave light unpolarised.
+    onward(ray, next.weight * found.weight, no_polarisation(), spread, left, later);
 }

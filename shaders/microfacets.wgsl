@@ -6,6 +6,8 @@
 // of slopes and the mean loss of one reflection. The other rows are the steps of the table of `Roughness::once`: the
 // loss of one reflection at both ends of the step and in its mean, and the even light that is lost in all steps
 // before.
+//
+// Imports: Finish.
 
 const TAU: f32 = 6.2831855;
 // The greatest solid angle that a direction represents: the whole sphere.
@@ -103,21 +105,24 @@ fn several_times(surface: u32, luck: vec2f) -> vec4f {
     return vec4f(sin_o * cos(TAU * luck.y), sin_o * sin(TAU * luck.y), cos_o, exact);
 }
 
-// Draws, by three numbers from 0 to below 1, a direction from which light comes that is reflected to `out`. A metal's
-// finish is its complex index, the share of repeatedly reflected light that it does not absorb, and the number of its
-// surface.
-fn sample_metal(finish: vec4f, out: vec3f, luck: vec3f) -> Scattered {
-    let surface = u32(finish.w) * ROUGHNESS_ROWS;
+// Returns the finish that four numbers describe.
+fn finish_of(numbers: vec4f) -> Finish {
+    return Finish(numbers.xy, numbers.z, numbers.w);
+}
+
+// Draws, by three numbers from 0 to below 1, a direction from which light comes that is reflected to `out`.
+fn sample_metal(finish: Finish, out: vec3f, luck: vec3f) -> Scattered {
+    let surface = u32(finish.surface) * ROUGHNESS_ROWS;
     let alpha = roughnesses[surface].x;
     if alpha == 0.0 {
-        return Scattered(vec3f(-out.xy, out.z), unpolarised_reflectance(out.z, finish.xy), 0.0);
+        return Scattered(vec3f(-out.xy, out.z), unpolarised_reflectance(out.z, finish.index), 0.0);
     }
     let lost = lost_once(surface, out.z);
     if luck.z >= 1.0 - lost {
         let found = several_times(surface, luck.xy);
         let even = lost_once(surface, found.z) / max(roughnesses[surface].y, 1e-30);
         let density = lost * even * found.z * FRAC_1_PI / max(found.w, 1e-30);
-        return Scattered(found.xyz, finish.z * found.w, min(1.0 / max(density, 1e-30), WHOLE));
+        return Scattered(found.xyz, finish.again * found.w, min(1.0 / max(density, 1e-30), WHOLE));
     }
     let middle = visible_normal(alpha, out, luck.xy);
     let cos_i = dot(out, middle);
@@ -127,7 +132,7 @@ fn sample_metal(finish: vec4f, out: vec3f, luck: vec3f) -> Scattered {
     }
     let own = 1.0 + hidden(alpha, out.z);
     let other = hidden(alpha, direction.z);
-    let weight = unpolarised_reflectance(cos_i, finish.xy) * own / ((own + other) * (1.0 - lost));
+    let weight = unpolarised_reflectance(cos_i, finish.index) * own / ((own + other) * (1.0 - lost));
     let density = (1.0 - lost) * slopes(alpha, middle) / (4.0 * out.z * own);
     return Scattered(direction, weight, min(1.0 / max(density, 1e-30), WHOLE));
 }

@@ -1,6 +1,6 @@
-// Snell's law, Fresnel's formulae and polarisation. Each function has the name of its twin in crates/optics/src and
-// crates/trace/src/beam/coherency.rs, which name the sources. crates/trace/src/gpu/parity.rs runs both on the same
-// numbers.
+// Snell's law, Fresnel's formulae and polarisation. Each function and each field has the name of its twin in
+// crates/optics/src and crates/trace/src/coherency.rs, which name the sources; only `reflect` and `refract` are names of
+// WGSL. crates/trace/src/gpu/parity.rs runs both on the same numbers.
 
 // The sine of the angle between a ray and a facet's normal below which the ray counts as perpendicular to the facet.
 const SQUARE_ON: f32 = 1e-4;
@@ -83,43 +83,67 @@ fn reflectances(f: Fresnel) -> vec2f {
     return select(vec2f(1.0), vec2f(dot(f.r_s, f.r_s), dot(f.r_p, f.r_p)), f.cos_t > 0.0);
 }
 
-// Returns light in axes turned from s toward p by the angle whose cosine is c and whose sine is s. Light is its coherency
-// matrix as (ss, pp, re, im) along the axes s and direction × s; its weight is ss + pp.
-fn turned(light: vec4f, c: f32, s: f32) -> vec4f {
+// The coherency matrix of light along the axes s and direction × s.
+struct Coherency {
+    ss: f32,
+    pp: f32,
+    re: f32,
+    im: f32,
+}
+
+fn weight_of(light: Coherency) -> f32 {
+    return light.ss + light.pp;
+}
+
+// Returns unpolarised light of this weight.
+fn of_weight(weight: f32) -> Coherency {
+    return Coherency(0.5 * weight, 0.5 * weight, 0.0, 0.0);
+}
+
+fn unpolarised(light: Coherency) -> Coherency {
+    return of_weight(weight_of(light));
+}
+
+// Returns this share of the light.
+fn times(light: Coherency, share: f32) -> Coherency {
+    return Coherency(light.ss * share, light.pp * share, light.re * share, light.im * share);
+}
+
+// Returns light in axes turned from s toward p by the angle whose cosine is c and whose sine is s.
+fn turned(light: Coherency, c: f32, s: f32) -> Coherency {
     let cc = c * c;
     let ss = s * s;
     let cs = c * s;
-    return vec4f(
-        cc * light.x + ss * light.y + 2.0 * cs * light.z,
-        ss * light.x + cc * light.y - 2.0 * cs * light.z,
-        (cc - ss) * light.z + cs * (light.y - light.x),
-        light.w,
+    return Coherency(
+        cc * light.ss + ss * light.pp + 2.0 * cs * light.re,
+        ss * light.ss + cc * light.pp - 2.0 * cs * light.re,
+        (cc - ss) * light.re + cs * (light.pp - light.ss),
+        light.im,
     );
+}
+
+// Returns the light of a ray along the axes that belong to `s`, where `before` is its axis s so far.
+fn turned_to(light: Coherency, s: vec3f, before: vec3f, direction: vec3f) -> Coherency {
+    return turned(light, dot(before, s), dot(cross(direction, before), s));
 }
 
 // Returns the light that a surface reflects.
-fn reflected(light: vec4f, f: Fresnel) -> vec4f {
+fn reflected(light: Coherency, f: Fresnel) -> Coherency {
     let cross = vec2f(dot(f.r_s, f.r_p), f.r_s.y * f.r_p.x - f.r_s.x * f.r_p.y);
-    return vec4f(
-        light.xy * reflectances(f),
-        light.z * cross.x - light.w * cross.y,
-        light.z * cross.y + light.w * cross.x,
+    let r = reflectances(f);
+    return Coherency(
+        light.ss * r.x,
+        light.pp * r.y,
+        light.re * cross.x - light.im * cross.y,
+        light.re * cross.y + light.im * cross.x,
     );
 }
 
-// Returns the weight of the light that passes a surface.
-fn passed(light: vec4f, f: Fresnel) -> f32 {
-    return dot(light.xy, 1.0 - reflectances(f));
-}
-
 // Returns the light that passes a surface; refraction shifts no phase.
-fn transmitted(light: vec4f, f: Fresnel) -> vec4f {
+fn transmitted(light: Coherency, f: Fresnel) -> Coherency {
     let t = max(1.0 - reflectances(f), vec2f(0.0));
-    return vec4f(light.xy * t, light.zw * sqrt(t.x * t.y));
-}
-
-fn unpolarised(light: vec4f) -> vec4f {
-    return vec4f(vec2f(0.5 * (light.x + light.y)), 0.0, 0.0);
+    let both = sqrt(t.x * t.y);
+    return Coherency(light.ss * t.x, light.pp * t.y, light.re * both, light.im * both);
 }
 
 // Returns the unit axis perpendicular to a ray and to a facet's normal. Where the ray is perpendicular to the facet,

@@ -1,5 +1,7 @@
 // Intersection of rays with convex stones: their planes, n·x <= w, are tried one after the other. `clusters.wgsl` does the
 // same for stones of many planes.
+//
+// Imports: leaving, flat, convex.
 
 @group(0) @binding(1) var<uniform> planes: array<vec4f, MOST_PLANES>;
 
@@ -10,7 +12,8 @@ fn plane_of(facet: u32) -> vec4f {
 // Counts the loop turns of one search, in shaders that count turns.
 fn count_planes() {
     if COUNTS_TURNS {
-        turns += (frame.most.w * (body.range.y - body.range.x)) / 16u;
+        let range = plane_range();
+        turns += (frame.plane_sixteenths * (range.end - range.first)) / 16u;
     }
 }
 
@@ -21,7 +24,8 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     var out = FAR;
     var facet = 0u;
     count_planes();
-    for (var k = body.range.x; k < body.range.y; k++) {
+    let range = plane_range();
+    for (var k = range.first; k < range.end; k++) {
         let plane = planes[k];
         let speed = dot(plane.xyz, direction);
         let gap = plane.w - dot(plane.xyz, origin);
@@ -42,8 +46,9 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
 
 // Returns the facet by which a ray leaves from a point inside, and the distance to it.
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
-    let start = Leaving(0.0, 1.0, body.range.x);
+    let range = plane_range();
+    let start = Leaving(0.0, 1.0, range.first);
     count_planes();
-    let facet = nearer(start, body.range.x, body.range.y, point, direction).facet;
+    let facet = nearer(start, range.first, range.end, point, direction).facet;
     return Meeting(facet, distance_to(planes[facet], point, direction));
 }

@@ -1,5 +1,7 @@
 // The pose of the present body. Rays are carried into the frame in which the body was built, and light that leaves is
 // carried back. This is the twin of crates/math/src/pose.rs and of crates/trace/src/ray/instance_tracer.rs.
+//
+// Imports: Body, trace.
 
 // Rotates a vector by a unit quaternion.
 fn rotated(turn: vec4f, v: vec3f) -> vec3f {
@@ -18,17 +20,17 @@ fn world_vector(v: vec3f) -> vec3f {
 
 // Returns the length in the world of the unit of the body's frame.
 fn unit() -> f32 {
-    return body.place.w;
+    return body.unit;
 }
 
 // Returns the place in the world of a point of the body.
 fn place(point: vec3f) -> vec3f {
-    return world_vector(point) * unit() + body.place.xyz;
+    return world_vector(point) * unit() + body.place;
 }
 
 // Returns the point of the body at a place in the world.
 fn unplace(place: vec3f) -> vec3f {
-    return own_vector(place - body.place.xyz) / unit();
+    return own_vector(place - body.place) / unit();
 }
 
 // Returns the facet by which a ray of the world enters the body, and the distance to it in the world; the distance is
@@ -38,18 +40,24 @@ fn meet(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(met.facet, met.distance * unit());
 }
 
-// Returns unpolarised light of this weight that meets the body at `met`, in the body's frame. Its ray starts on the surface,
-// so that a long way to the body costs no digits.
-fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
+// Returns light of this weight that meets the body at `met`, in the body's frame. Its ray starts on the surface, so that
+// a long way to the body costs no digits.
+fn arriving(ray: Ray, met: Meeting, weight: f32, polarisation: Polarisation) -> Inbound {
     let direction = own_vector(ray.direction);
     let distance = met.distance / unit();
     let point = polished(unplace(ray.origin) + direction * distance);
     let fan = own_vector(ray.fan);
     let shift = own_vector(ray.shift) / unit() + fan * distance;
-    return inbound_of(Ray(point, direction, fan, shift), Meeting(met.facet, 0.0), weight);
+    let own = Polarisation(polarisation.light, own_vector(polarisation.s));
+    return inbound_of(Ray(point, direction, fan, shift), Meeting(met.facet, 0.0), weight, own);
 }
 
 // Carries a ray that leaves the body into the world.
 fn outward(ray: Ray) -> Ray {
     return Ray(place(ray.origin), world_vector(ray.direction), world_vector(ray.fan), world_vector(ray.shift) * unit());
+}
+
+// Returns the polarisation of light that leaves the body, in the world.
+fn outward_polarisation(departing: Inbound) -> Polarisation {
+    return Polarisation(departing.light, world_vector(departing.s));
 }

@@ -1,4 +1,6 @@
 // Records, for each pixel of a picture in a scope, the energy by band and the bands of the strongest exits.
+//
+// Imports: Bands, ScopePixel, trace, pose, camera, tiles.
 
 @group(0) @binding(2) var<storage, read_write> seen: array<ScopePixel>;
 @group(0) @binding(6) var<uniform> bands: Bands;
@@ -22,7 +24,7 @@ fn marked(band: u32, first: u32) -> vec4f {
 }
 
 // Adds light that leaves the stone to its band.
-fn leave(ray: Ray, weight: f32, is_surface: bool) {
+fn leave(ray: Ray, weight: f32, polarisation: Polarisation, is_surface: bool) {
     let band = band_of(ray.direction);
     if is_surface {
         sum.surface[0] += marked(band, 0u) * weight;
@@ -45,7 +47,7 @@ fn is_taken(ray: Ray, distance: f32) -> bool {
 @compute @workgroup_size(8, 8)
 fn scope(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: vec3u) {
     let place = strip_pixel(group, id.xy);
-    if place.x >= frame.film.x || place.y >= frame.film.w {
+    if place.x >= frame.size.x || place.y >= frame.row_count {
         return;
     }
     sum = ScopePixel();
@@ -54,22 +56,24 @@ fn scope(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     body = bodies[0];
     medium = medium_of(media[0]);
     // A dispatch traces the ray in one cell of the pixel's grid.
-    let grid = frame.turn.y;
-    let turn = frame.turn.x;
+    let grid = frame.grid;
+    let turn = frame.cell;
     let cell = vec2f(f32(turn % grid), f32(turn / grid));
-    let ray = pixel_ray(vec2u(place.x, frame.film.z + place.y), (cell + frame.limits.zw) / f32(grid));
+    let ray = pixel_ray(vec2u(place.x, frame.first_row + place.y), (cell + frame.place) / f32(grid));
     let entered = meet(ray.origin, ray.direction);
     if entered.distance >= 0.0 {
-        let rest = follow(ray, entered, 1.0);
-        sum.rest = vec4f(rest.absorbed, rest.unresolved, 1.0, 0.0);
+        let rest = follow(ray, entered, 1.0, no_polarisation());
+        sum.absorbed = rest.absorbed;
+        sum.unresolved = rest.unresolved;
+        sum.hit = 1.0;
         sum.strongest[0] = marked(strongest_band, 0u);
         sum.strongest[1] = marked(strongest_band, 4u);
         if strongest_band == NONE || rest.unresolved > strongest_weight {
-            sum.rest.w = 1.0;
+            sum.undecided = 1.0;
         }
     }
     let share = 1.0 / f32(grid * grid);
-    let at = place.y * frame.film.x + place.x;
+    let at = place.y * frame.size.x + place.x;
     var before = seen[at];
     if turn == 0u {
         before = ScopePixel();
@@ -79,6 +83,9 @@ fn scope(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
         before.surface[i] += sum.surface[i] * share;
         before.strongest[i] += sum.strongest[i] * share;
     }
-    before.rest += sum.rest * share;
+    before.absorbed += sum.absorbed * share;
+    before.unresolved += sum.unresolved * share;
+    before.hit += sum.hit * share;
+    before.undecided += sum.undecided * share;
     seen[at] = before;
 }

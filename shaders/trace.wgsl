@@ -2,6 +2,12 @@
 // there to `leave`, which scope.wgsl or light.wgsl defines. The functions `entry`, `next_facet` and `facet_normal`
 // describe the surface. Everything here is in the frame of the body, whose unit lengths and absorption have;
 // pose.wgsl converts to it and back.
+//
+// Imports: Frame, Body, Medium, optics.
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;
+@group(0) @binding(5) var<storage, read> media: array<vec4f>;
 
 // The least gap before a plane, so that one that rounding has put behind the point is met immediately; also the
 // least divisor of a step.
@@ -51,27 +57,43 @@ fn transmittance(path: f32) -> f32 {
 
 // Returns whether the ray has taken too many loop turns.
 fn is_spent() -> bool {
-    return turns > frame.most.x;
+    return turns > frame.most_turns;
 }
 
 // Light outside the body that is about to enter it or has just left it. `light` is the light without absorption,
-// along `s` and direction × s, and `left` is the share that absorption has left. `path` and `bounce` are the length
+// whose axis s is `s`, and `left` is the share that absorption has left. `path` and `bounce` are the length
 // of its path and the number of bounces inside so far.
 struct Inbound {
     met: Meeting,
     ray: Ray,
-    light: vec4f,
+    light: Coherency,
     s: vec3f,
     left: f32,
     path: f32,
     bounce: u32,
 }
 
-// Returns unpolarised light of this weight that meets the body at `met`.
-fn inbound_of(ray: Ray, met: Meeting, weight: f32) -> Inbound {
+// The polarisation of light outside: its coherency matrix at any weight, whose axis s is `s`. A zero vector `s` stands
+// for light that is not polarised.
+struct Polarisation {
+    light: Coherency,
+    s: vec3f,
+}
+
+// Returns the polarisation of light that is not polarised.
+fn no_polarisation() -> Polarisation {
+    return Polarisation(Coherency(), vec3f(0.0));
+}
+
+// Returns light of this weight that meets the body at `met`.
+fn inbound_of(ray: Ray, met: Meeting, weight: f32, polarisation: Polarisation) -> Inbound {
+    if dot(polarisation.s, polarisation.s) > 0.0 {
+        let light = times(polarisation.light, weight / weight_of(polarisation.light));
+        return Inbound(met, ray, light, polarisation.s, 1.0, 0.0, 0u);
+    }
     let normal = facet_normal(met.facet, ray.origin + ray.direction * met.distance);
-    let s = s_axis(ray.direction, normal, frame.right.xyz);
-    return Inbound(met, ray, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
+    let s = s_axis(ray.direction, normal, frame.right);
+    return Inbound(met, ray, of_weight(weight), s, 1.0, 0.0, 0u);
 }
 
 // Returns a vector, scaled down so that no component exceeds WIDEST_FAN.
@@ -103,7 +125,7 @@ fn distance_to(plane: vec4f, point: vec3f, direction: vec3f) -> f32 {
 // Follows light through the body, from the facet where it enters until too little is left or the bounces are used up.
 fn passage(inbound: Inbound) -> Rest {
     let ray = inbound.ray;
-    let is_polarised = frame.counts.w == 1u;
+    let is_polarised = frame.is_polarised == 1u;
     var point = ray.origin + ray.direction * inbound.met.distance;
     var normal = facet_normal(inbound.met.facet, point);
     var shift = along_surface(ray.shift + ray.fan * inbound.met.distance, ray.direction, normal);
@@ -113,7 +135,7 @@ fn passage(inbound: Inbound) -> Rest {
     var s = s_axis(ray.direction, normal, inbound.s);
     var light = inbound.light;
     if is_polarised {
-        light = turned(light, dot(inbound.s, s), dot(cross(ray.direction, inbound.s), s));
+        light = turned_to(light, s, inbound.s, ray.direction);
     }
     var left = inbound.left;
     var path = inbound.path;
@@ -132,7 +154,7 @@ fn passage(inbound: Inbound) -> Rest {
     let eta = 1.0 / medium.index;
     var fan =
         tamed(refracted_change(ray.direction, normal, eta, outside, surface.cos_t, ray.fan, of_normal, of_eta));
-    while (light.x + light.y) * left > frame.limits.x && rest.bounces < frame.counts.z {
+    while weight_of(light) * left > frame.least_weight && rest.bounces < frame.most_bounces {
         let next = next_facet(point, direction);
         // Rounding has let the ray slip out of the body.
         if next.distance < 0.0 {
@@ -145,12 +167,12 @@ fn passage(inbound: Inbound) -> Rest {
         shift = along_surface(shift + fan * next.distance, direction, normal);
         of_normal = turned_normal(point, shift);
         let after = transmittance(path);
-        rest.absorbed += (light.x + light.y) * (left - after);
+        rest.absorbed += weight_of(light) * (left - after);
         left = after;
         let f = fresnel(cos_i, medium.index);
         if is_polarised {
             let across = s_axis(direction, normal, s);
-            light = turned(light, dot(s, across), dot(cross(direction, s), across));
+            light = turned_to(light, across, s, direction);
             s = across;
         }
         rest.bounces += 1u;
@@ -172,6 +194,6 @@ fn passage(inbound: Inbound) -> Rest {
         fan = tamed(reflected_change(direction, normal, fan, of_normal));
         direction = reflect_ray(direction, -normal, cos_i);
     }
-    rest.unresolved = (light.x + light.y) * left;
+    rest.unresolved = weight_of(light) * left;
     return rest;
 }

@@ -62,7 +62,8 @@ fn by_ray(
 }
 
 fn numbers(seen: &ScopePixel) -> [f64; 19] {
-    let all = seen.transmitted.iter().chain(&seen.surface).chain(&seen.rest[..3]);
+    let all =
+        seen.transmitted.iter().chain(&seen.surface).chain([&seen.absorbed, &seen.unresolved, &seen.hit]);
     let mut numbers = [0.0; 19];
     numbers.iter_mut().zip(all).for_each(|(n, &v)| *n = f64::from(v));
     numbers

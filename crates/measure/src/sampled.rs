@@ -175,14 +175,14 @@ impl Tally {
         let add = |to: &mut [f64], from: &[f32]| {
             to.iter_mut().zip(from).for_each(|(a, &b)| *a += f64::from(b));
         };
-        if seen.hit() > 0.0 {
+        if seen.hit > 0.0 {
             self.hits += 1;
             add(&mut self.surface, &seen.surface);
             add(&mut self.transmitted, &seen.transmitted);
-            self.absorbed += f64::from(seen.absorbed());
-            self.unresolved += f64::from(seen.unresolved());
-            self.undecided += f64::from(seen.undecided());
-            if seen.undecided() == 0.0 {
+            self.absorbed += f64::from(seen.absorbed);
+            self.unresolved += f64::from(seen.unresolved);
+            self.undecided += f64::from(seen.undecided);
+            if seen.undecided == 0.0 {
                 add(&mut self.strongest, &seen.strongest);
             }
         }

@@ -4,12 +4,20 @@
 //! Decadic absorbance, which some sources print, must first be divided by 0.4343.
 
 use super::dispersion::VISIBLE_NM;
+use super::real::Real;
 use super::strata::basis;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 /// The largest coefficient that is accepted, per mm: metals reach 1e5.
 pub const MOST_PER_MM: f64 = 1e6;
+
+/// Returns the share of the intensity that is left after a path, for the absorption coefficients of two polarisations, per
+/// unit of the path: the mean of both, each of which is half of the light.
+#[inline(always)]
+pub fn transmittance<N: Real>([o, e]: [N; 2], path: N) -> N {
+    path.constant(0.5) * ((-o * path).exp() + (-e * path).exp())
+}
 
 /// An absorption spectrum: straight lines between samples, and constant outside them. Without samples the stone is
 /// clear; with one sample it is grey.

@@ -7,31 +7,47 @@
 //!   *each* wave is along e_s × (its own direction of travel). Hence r_p = -r_s at normal incidence, where the two p axes
 //!   point opposite ways.
 
+use super::real::{Real, Truth};
 use super::snell::{cos_t_squared, cos_transmitted};
-use num_complex::Complex64;
+use num_complex::Complex;
 
 /// The amplitude reflection coefficients of light that meets a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fresnel {
+pub struct Fresnel<N = f64> {
     /// The reflected over the incident amplitude, with the electric field across the plane of incidence.
-    pub r_s: Complex64,
+    pub r_s: Complex<N>,
     /// The reflected over the incident amplitude, with the electric field in the plane of incidence.
-    pub r_p: Complex64,
-    /// The cosine of the angle of refraction; `None` where reflection is total.
-    pub cos_t: Option<f64>,
+    pub r_p: Complex<N>,
+    /// The cosine of the angle of refraction; 0 where reflection is total.
+    pub cos_t: N,
 }
 
-impl Fresnel {
+impl<N: Real> Fresnel<N> {
     /// Returns the share of s-polarised power that is reflected, 0..=1; the rest is transmitted.
-    #[inline]
-    pub fn reflectance_s(&self) -> f64 {
+    #[inline(always)]
+    pub fn reflectance_s(&self) -> N {
         self.power(self.r_s)
     }
 
     /// Returns the share of p-polarised power that is reflected, 0..=1; the rest is transmitted.
-    #[inline]
-    pub fn reflectance_p(&self) -> f64 {
+    #[inline(always)]
+    pub fn reflectance_p(&self) -> N {
         self.power(self.r_p)
+    }
+
+    /// Returns |r|², but exactly 1 in total reflection. Only total reflection has complex amplitudes.
+    #[inline(always)]
+    fn power(&self, r: Complex<N>) -> N {
+        let zero = self.cos_t.constant(0.0);
+        zero.less(self.cos_t).select(r.re * r.re, zero.constant(1.0))
+    }
+}
+
+impl Fresnel {
+    /// Returns the cosine of the angle of refraction; `None` where reflection is total.
+    #[inline]
+    pub fn cos_t(&self) -> Option<f64> {
+        (self.cos_t > 0.0).then_some(self.cos_t)
     }
 
     /// Returns the share of unpolarised power that is reflected, 0..=1; the rest is transmitted.
@@ -58,13 +74,7 @@ impl Fresnel {
     /// Returns whether the surface reflects all light.
     #[inline]
     pub fn is_total(&self) -> bool {
-        self.cos_t.is_none()
-    }
-
-    /// Returns |r|², but exactly 1 in total reflection.
-    #[inline]
-    fn power(&self, r: Complex64) -> f64 {
-        if self.is_total() { 1.0 } else { r.norm_sqr() }
+        self.cos_t <= 0.0
     }
 }
 
@@ -72,18 +82,32 @@ impl Fresnel {
 ///
 /// `cos_i` is in 0..=1; values slightly beyond, from rounding, are clamped. `eta` is the incident index / the
 /// transmitted index, > 0. Exactly at the critical angle, and at grazing incidence, all light is reflected.
-#[inline]
-pub fn fresnel(cos_i: f64, eta: f64) -> Fresnel {
-    let cos_i = cos_i.clamp(0.0, 1.0);
-    let cos_t = cos_transmitted(cos_i, eta);
-    let (r_s, r_p) = match cos_t {
-        Some(cos_t) => (partial(eta * cos_i, cos_t), partial(cos_i, eta * cos_t)),
+#[inline(always)]
+pub fn fresnel<N: Real>(cos_i: N, eta: N) -> Fresnel<N> {
+    let zero = cos_i.constant(0.0);
+    let cos_i = cos_i.clamped();
+    let squared = cos_t_squared(cos_i, eta);
+    let is_partial = zero.constant(N::LEAST_COS_T_SQUARED).less(squared);
+    // In total reflection the root is the decay of the evanescent wave.
+    let root = is_partial.select(squared, (-squared).max(zero)).sqrt();
+    Fresnel {
+        r_s: amplitude(is_partial, eta * cos_i, root),
+        r_p: amplitude(is_partial, cos_i, eta * root),
+        cos_t: is_partial.select(root, zero),
+    }
+}
+
+/// Returns the amplitude of partial or of total reflection.
+#[inline(always)]
+fn amplitude<N: Real>(is_partial: N::Truth, a: N, b: N) -> Complex<N> {
+    match is_partial.of_single() {
+        Some(true) => partial(a, b),
+        Some(false) => total(a, b),
         None => {
-            let decay = (-cos_t_squared(cos_i, eta)).max(0.0).sqrt();
-            (total(eta * cos_i, decay), total(cos_i, eta * decay))
+            let (some, all) = (partial(a, b), total(a, b));
+            Complex::new(is_partial.select(some.re, all.re), is_partial.select(some.im, all.im))
         }
-    };
-    Fresnel { r_s, r_p, cos_t }
+    }
 }
 
 /// Returns the reflected share of unpolarised power; `None` where reflection is total.
@@ -102,20 +126,22 @@ pub fn reflectance(cos_i: f64, eta: f64) -> Option<f64> {
 }
 
 /// Returns (a - b) / (a + b): Born & Wolf eq. 21 divided by the transmitted index.
-#[inline]
-fn partial(a: f64, b: f64) -> Complex64 {
-    Complex64::from((a - b) / (a + b))
+#[inline(always)]
+fn partial<N: Real>(a: N, b: N) -> Complex<N> {
+    Complex::new((a - b).over(a + b), a.constant(0.0))
 }
 
 /// Returns (a - ib) / (a + ib), of modulus 1 and phase -2 atan(b / a), which is Born & Wolf eq. 60.
-#[inline]
-fn total(a: f64, b: f64) -> Complex64 {
+#[inline(always)]
+fn total<N: Real>(a: N, b: N) -> Complex<N> {
+    let zero = a.constant(0.0);
     let square = a * a + b * b;
-    if square == 0.0 {
-        // Equal indices at grazing incidence: the limit is the same from a denser and from a rarer side.
-        return Complex64::from(-1.0);
-    }
-    Complex64::new((a * a - b * b) / square, -2.0 * a * b / square)
+    // Equal indices at grazing incidence: the limit is the same from a denser and from a rarer side.
+    let is_there = zero.less(square);
+    Complex::new(
+        is_there.select((a * a - b * b).over(square), zero.constant(-1.0)),
+        is_there.select((-(a + a) * b).over(square), zero),
+    )
 }
 
 #[cfg(test)]
@@ -147,7 +173,7 @@ mod tests {
     fn reflected_and_transmitted_flux_add_up_to_one() {
         for_each_case(|cos_i, eta| {
             let f = fresnel(cos_i, eta);
-            let Some(cos_t) = f.cos_t else { return };
+            let Some(cos_t) = f.cos_t() else { return };
             let (t_s, t_p) = transmitted_flux(cos_i, cos_t, eta);
             assert!((f.reflectance_s() + t_s - 1.0).abs() < 1e-14);
             assert!((f.reflectance_p() + t_p - 1.0).abs() < 1e-14);
@@ -167,7 +193,7 @@ mod tests {
                 return;
             }
             let d = DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i);
-            let cos_t = f.cos_t.expect("not total");
+            let cos_t = f.cos_t().expect("not total");
             let (r, t) = (reflect(d, n, -n.dot(d)), refract(d, n, eta, (-n.dot(d), cos_t)));
             let e_s = DVec3::Y;
             let t_s = 2.0 * eta * cos_i / (eta * cos_i - n.dot(t));
@@ -203,7 +229,7 @@ mod tests {
     fn both_ways_through_a_surface_reflect_the_same_share() {
         for_each_case(|cos_i, eta| {
             let there = fresnel(cos_i, eta);
-            let Some(cos_t) = there.cos_t else { return };
+            let Some(cos_t) = there.cos_t() else { return };
             let back = fresnel(cos_t, 1.0 / eta);
             // Rounding of a cosine c moves cos² by 1e-16, so the other cosine by 1e-16 / c.
             let slack = 1e-14 / cos_i.min(cos_t);

@@ -20,11 +20,12 @@ pub mod material;
 pub mod metal;
 pub mod microfacets;
 pub mod observer;
+pub mod real;
 pub mod snell;
 pub mod strata;
 mod weight;
 
-pub use absorption::{Absorption, AbsorptionError, MOST_PER_MM};
+pub use absorption::{Absorption, AbsorptionError, MOST_PER_MM, transmittance};
 pub use colour::{LUMINANCE, LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encoded};
 pub use dispersion::{Dispersion, DispersionError, INDICES, INDICES_IN_WORDS, VISIBLE_NM, line};
 pub use fresnel::{Fresnel, fresnel, reflectance};
@@ -34,8 +35,7 @@ pub use material::{Material, UnknownMaterial, material, materials};
 pub use metal::{Metal, metal_reflectance};
 pub use microfacets::{RoughMetal, Roughness, Scattered};
 pub use observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, seen};
-pub use snell::{
-    brewster_angle, cos_transmitted, critical_angle, reflect, reflected_change, refract, refracted_change,
-};
+pub use real::{Real, Truth, Vector};
+pub use snell::{Incidence, brewster_angle, cos_transmitted, critical_angle, reflect, refract};
 pub use strata::{SAMPLED_NM, Strata, Stratum, basis, strata};
 pub use weight::MG_PER_CARAT;

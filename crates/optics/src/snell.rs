@@ -5,64 +5,90 @@
 //! §1.5.1, law of refraction eq. 8; as vectors in M. Pharr, W. Jakob and G. Humphreys, *Physically Based Rendering*, 4th ed.
 //! (2023), §9.3.
 
-use glam::DVec3;
+use super::real::{Real, Truth, Vector};
 
 /// The greatest distance of a unit vector's length from 1, or of a grazing n·d beyond 0, that counts as rounding.
 /// Anything greater counts as a caller's mistake.
 const ROUNDING: f64 = 1e-9;
 
-/// Reflection counts as total where cos² of the refraction angle is at or below this.
-///
-/// The value is below every cos² that two different indices can give (their rounding is 1e-16), and far enough from 0
-/// that dividing by it is safe.
-const LEAST_COS_T_SQUARED: f64 = 1e-300;
+/// Light that meets a surface, and its change over the range that a ray represents.
+#[derive(Debug, Clone, Copy)]
+pub struct Incidence<V: Vector> {
+    /// The unit direction of travel.
+    pub direction: V,
+    /// The unit normal on the side that the light comes from.
+    pub normal: V,
+    /// The cosine of the angle of incidence, -n·d.
+    pub cos_i: V::Real,
+    /// The change of the direction.
+    pub of_direction: V,
+    /// The change of the normal; `None` where the surface is flat.
+    pub of_normal: Option<V>,
+}
 
 /// Returns the direction of the mirror-reflected ray, d + 2 cos_i n.
-#[inline]
-pub fn reflect(d: DVec3, n: DVec3, cos_i: f64) -> DVec3 {
+#[inline(always)]
+pub fn reflect<V: Vector>(d: V, n: V, cos_i: V::Real) -> V {
     check(d, n, cos_i);
-    d + n * (2.0 * cos_i)
+    (d + n * (cos_i + cos_i)).straightened()
 }
 
 /// Returns the direction of the refracted ray, eta d + (eta cos_i - cos_t) n, with `cos_t` from [`cos_transmitted`].
 ///
 /// The tangential part is scaled by eta (Snell), and the normal part makes it a unit vector.
-#[inline]
-pub fn refract(d: DVec3, n: DVec3, eta: f64, (cos_i, cos_t): (f64, f64)) -> DVec3 {
+#[inline(always)]
+pub fn refract<V: Vector>(d: V, n: V, eta: V::Real, (cos_i, cos_t): (V::Real, V::Real)) -> V {
     check(d, n, cos_i);
     d * eta + n * (eta * cos_i - cos_t)
 }
 
-/// Returns the change of the reflected direction when the ray's direction changes by `of_d` and the normal by `of_n`.
-///
-/// This is the differential of [`reflect`]; it is the same for a normal of either sign.
-#[inline]
-pub fn reflected_change(d: DVec3, n: DVec3, (of_d, of_n): (DVec3, DVec3)) -> DVec3 {
-    of_d - n * (2.0 * (of_d.dot(n) + d.dot(of_n))) - of_n * (2.0 * d.dot(n))
+impl<V: Vector> Incidence<V> {
+    /// Returns the change of the reflected direction.
+    ///
+    /// This is the differential of [`reflect`]; it is the same for a normal of either sign.
+    #[inline(always)]
+    pub fn reflected_change(&self) -> V {
+        let Self { direction: d, normal: n, of_direction: of_d, .. } = *self;
+        let across = of_d.dot(n);
+        match self.of_normal {
+            None => of_d - n * (across + across),
+            Some(of_n) => {
+                let (turn, along) = (across + d.dot(of_n), d.dot(n));
+                of_d - n * (turn + turn) - of_n * (along + along)
+            }
+        }
+    }
+
+    /// Returns the change of the refracted direction where eta changes by `of_eta`.
+    ///
+    /// This is the differential of [`refract`]; `cos_t` must be above 0.
+    #[inline(always)]
+    pub fn refracted_change(&self, eta: V::Real, of_eta: V::Real, cos_t: V::Real) -> V {
+        let Self { direction: d, normal: n, cos_i, of_direction: of_d, of_normal } = *self;
+        let of_cos_i = match of_normal {
+            None => -of_d.dot(n),
+            Some(of_n) => -of_d.dot(n) - d.dot(of_n),
+        };
+        let square = cos_i.constant(1.0) - cos_i * cos_i;
+        let divisor = cos_t.max(cos_t.constant(V::Real::LEAST_COS));
+        let of_cos_t = eta * (eta * cos_i * of_cos_i - square * of_eta) / divisor;
+        let change = d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t);
+        match of_normal {
+            None => change,
+            Some(of_n) => change + of_n * (eta * cos_i - cos_t),
+        }
+    }
 }
 
-/// Returns the change of the refracted direction when the ray's direction changes by `of_d`, the normal by `of_n` and
-/// eta by `of_eta`.
-///
-/// This is the differential of [`refract`]; `cos_t` must be above 0.
-#[inline]
-pub fn refracted_change(
-    d: DVec3,
-    n: DVec3,
-    eta: f64,
-    (cos_i, cos_t): (f64, f64),
-    (of_d, of_n, of_eta): (DVec3, DVec3, f64),
-) -> DVec3 {
-    let of_cos_i = -of_d.dot(n) - d.dot(of_n);
-    let of_cos_t = eta * (eta * cos_i * of_cos_i - (1.0 - cos_i * cos_i) * of_eta) / cos_t;
-    d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t) + of_n * (eta * cos_i - cos_t)
-}
-
-/// Panics on a caller's mistake, in debug builds only.
-#[inline]
-fn check(d: DVec3, n: DVec3, cos_i: f64) {
-    debug_assert!(is_unit(d) && is_unit(n), "unit vectors are wanted, got d = {d}, n = {n}");
-    debug_assert!((cos_i + n.dot(d)).abs() < ROUNDING, "cos_i is -n.d = {}, got {cos_i}", -n.dot(d));
+/// Panics on a caller's mistake, in debug builds only. Lanes are not checked, because empty ones hold any numbers.
+#[inline(always)]
+fn check<V: Vector>(d: V, n: V, cos_i: V::Real) {
+    let one = cos_i.constant(1.0);
+    if cfg!(debug_assertions) && one.less(one).of_single().is_some() {
+        let is_near = |off: V::Real| off.abs().less(one.constant(ROUNDING)).of_single() != Some(false);
+        assert!(is_near(d.dot(d) - one) && is_near(n.dot(n) - one), "unit vectors are wanted");
+        assert!(is_near(cos_i + n.dot(d)), "cos_i is -n.d");
+    }
 }
 
 /// Returns the cosine of the angle of refraction; `None` where reflection is total.
@@ -74,15 +100,16 @@ fn check(d: DVec3, n: DVec3, cos_i: f64) {
 #[inline]
 pub fn cos_transmitted(cos_i: f64, eta: f64) -> Option<f64> {
     let squared = cos_t_squared(cos_i, eta);
-    (squared > LEAST_COS_T_SQUARED).then(|| squared.sqrt())
+    (squared > f64::LEAST_COS_T_SQUARED).then(|| squared.sqrt())
 }
 
 /// Returns 1 - eta² sin²(i), negative beyond the critical angle. The sum is written so that equal indices give
 /// exactly cos²(i).
-#[inline]
-pub(super) fn cos_t_squared(cos_i: f64, eta: f64) -> f64 {
-    let normal_part = eta * cos_i.clamp(0.0, 1.0);
-    (1.0 - eta) * (1.0 + eta) + normal_part * normal_part
+#[inline(always)]
+pub(super) fn cos_t_squared<N: Real>(cos_i: N, eta: N) -> N {
+    let one = eta.constant(1.0);
+    let normal_part = eta * cos_i.clamped();
+    (one - eta) * (one + eta) + normal_part * normal_part
 }
 
 /// Returns the angle of incidence in radians beyond which reflection is total, asin(1 / eta) (Born & Wolf §1.5.4).
@@ -99,14 +126,10 @@ pub fn brewster_angle(eta: f64) -> f64 {
     (1.0 / eta).atan()
 }
 
-#[inline]
-fn is_unit(v: DVec3) -> bool {
-    (v.length_squared() - 1.0).abs() < ROUNDING
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     /// Refracts a ray, or finds that reflection is total, as the tracers do.
     fn refract(d: DVec3, n: DVec3, eta: f64) -> Option<DVec3> {
@@ -170,11 +193,14 @@ mod tests {
             };
             let (ahead, behind) = (moved(step), moved(-step));
             let expected = (ahead.0 - behind.0) / (2.0 * step);
-            let change = refracted_change(d, n, eta, (cos_i, cos_t), (of_d, of_n, 0.7));
+            let incidence =
+                Incidence { direction: d, normal: n, cos_i, of_direction: of_d, of_normal: Some(of_n) };
+            let change = incidence.refracted_change(eta, 0.7, cos_t);
             assert!((change - expected).length() < 1e-5, "{change} for {expected} at {d}, {n}, {eta}");
             let expected = (ahead.1 - behind.1) / (2.0 * step);
             for n in [n, -n] {
-                let change = reflected_change(d, n, (of_d, if n.dot(d) == -cos_i { of_n } else { -of_n }));
+                let of_normal = Some(if n.dot(d) == -cos_i { of_n } else { -of_n });
+                let change = Incidence { normal: n, of_normal, ..incidence }.reflected_change();
                 assert!((change - expected).length() < 1e-8, "{change} for {expected} at {d}, {n}");
             }
         });

@@ -28,7 +28,7 @@ pub fn trace<E: From<Stopped> + From<GpuError>>(
                 let value = |seen: &ScopePixel| match channel.checked_sub(bands) {
                     None => seen.transmitted[channel] + share * seen.surface[channel],
                     Some(band) if band < bands => seen.strongest[band],
-                    Some(_) => seen.hit(),
+                    Some(_) => seen.hit,
                 };
                 to.iter_mut().zip(line).for_each(|(to, seen)| *to = f64::from(value(seen)));
             }

@@ -1,6 +1,6 @@
 //! The medium of a stone: its material at one wavelength.
 
-use brillianteer_optics::Material;
+use brillianteer_optics::{Material, transmittance};
 use serde::{Deserialize, Serialize};
 
 /// A clear or absorbing medium at one wavelength, surrounded by air of index 1.
@@ -59,7 +59,6 @@ impl Medium {
     /// Returns the share of the intensity that is left after a path of this length from the surface, in girdle radii. It is
     /// the mean of the two polarisations, each half of the light.
     pub fn transmittance(&self, path: f64) -> f64 {
-        let [o, e] = self.absorption.map(|a| (-a * path).exp());
-        0.5 * (o + e)
+        transmittance(self.absorption, path)
     }
 }

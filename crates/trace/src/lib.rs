@@ -8,6 +8,7 @@
 #![cfg_attr(test, allow(clippy::too_many_lines))]
 
 pub mod beam;
+mod coherency;
 mod dispersed_ray;
 pub mod environment;
 mod facet_guess;

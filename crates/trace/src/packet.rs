@@ -1,10 +1,10 @@
 //! Packets of rays, one ray in each lane of the processor's registers, in single precision. They serve for pictures
 //! under light.
 //!
-//! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, through bodies of
-//! planes and glass shapes; light may enter a plate with waves again. Light that goes from one body to another keeps
-//! its polarisation, which `ray` forgets. Each ray has its own medium, so that the wavelengths of one pixel share a
-//! packet. When a ray ends, the next ray takes its lane. `shaders/trace.wgsl` does the same on a graphics card.
+//! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, by the same formulae,
+//! through bodies of planes and glass shapes; light may enter a plate with waves again. Each ray has its own medium, so that the
+//! wavelengths of one pixel share a packet. When a ray ends, the next ray takes its lane. `shaders/trace.wgsl` does the
+//! same on a graphics card.
 
 mod backplate;
 mod chain;
@@ -12,7 +12,6 @@ mod entering;
 mod environment;
 mod fields;
 mod lanes;
-mod optics;
 mod outside;
 mod planes;
 mod rays;

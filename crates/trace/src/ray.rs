@@ -26,7 +26,6 @@ mod sight;
 mod tree;
 
 pub use self::camera::Camera;
-use self::dispersed_ray::Arrival;
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::first_bodies::FirstBodies;
 use self::frosted_facets::{Arriving, FrostedFacets, Struck};
@@ -37,16 +36,15 @@ use self::lobe_luck::LobeLuck;
 pub use self::loss::Loss;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
-pub(crate) use self::roulette::ChainRoulette;
 pub use self::roulette::Roulette;
+pub(crate) use self::roulette::{ChainEnd, ChainRoulette};
 pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
 pub use self::sight::{ProbeRay, SceneProbe, facet_at};
 use self::tree::Inbound;
 use crate::DispersedRay;
+use crate::dispersed_ray::{Arrival, Refraction};
 use brillianteer_math::SolidRef;
-use brillianteer_optics::{
-    FrostedSurface, cos_transmitted, reflect, reflected_change, refract, refracted_change,
-};
+use brillianteer_optics::{FrostedSurface, cos_transmitted};
 use brillianteer_scene::Medium;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -108,6 +106,8 @@ pub struct MeetingRay {
     pub weight: f64,
     /// The chance by which weak light goes on in a solid that is not convex; `None` where all light is followed.
     pub roulette: Option<Roulette>,
+    /// The polarisation of the light, at this weight; `None` where the light is not polarised.
+    light: Option<PathLight>,
     /// The random numbers by which frosted facets scatter the light; `None` where light that meets such a facet
     /// counts as unresolved.
     luck: Option<LobeLuck>,
@@ -116,7 +116,7 @@ pub struct MeetingRay {
 impl MeetingRay {
     /// Returns a ray from the eye.
     pub fn from_eye(met: (usize, f64), ray: DispersedRay) -> Self {
-        Self { met, ray, weight: 1.0, roulette: None, luck: None }
+        Self { met, ray, weight: 1.0, roulette: None, light: None, luck: None }
     }
 }
 
@@ -188,16 +188,18 @@ impl StoneTracer {
         is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
     ) -> Option<Loss> {
-        // One chain is compiled for all callers, not one for each closure: an exit costs far less than the bounce before it.
-        self.follow_into(ray, &is_taken, &mut leave)
+        self.follow_light(ray, &is_taken, &mut |exit, _| leave(exit))
     }
 
-    fn follow_into(
+    /// Follows a ray as [`follow_from`](Self::follow_from) does. `leave` also receives the event at which the light
+    /// leaves, which knows its polarisation ([`leaving_light`](Self::leaving_light)).
+    pub(super) fn follow_light(
         &self,
         ray: &MeetingRay,
         is_taken: &dyn Fn(&Exit, f64) -> bool,
-        leave: &mut dyn FnMut(Exit),
+        leave: &mut dyn FnMut(Exit, &SurfaceEvent),
     ) -> Option<Loss> {
+        // One chain is compiled for all callers, not one for each closure: an exit costs far less than the bounce before it.
         let start = self.start(ray);
         match &self.shape {
             SolidFacets::Planes(planes) => self.chain(&**planes, start, leave),
@@ -229,18 +231,24 @@ impl StoneTracer {
     }
 
     /// Follows light through a solid that never takes back light that has left it.
-    fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, leave: &mut dyn FnMut(Exit)) -> Option<Loss> {
+    fn chain<F: FacetSearch>(
+        &self,
+        facets: &F,
+        start: Inbound,
+        leave: &mut dyn FnMut(Exit, &SurfaceEvent),
+    ) -> Option<Loss> {
         self.passage(facets, start, self.options.least_weight, |meeting| {
             if let Some(exit) = meeting.exit() {
-                leave(exit);
+                leave(exit, &meeting);
             }
         })
     }
 
-    /// Returns the light of a ray that is about to enter; it is not polarised.
+    /// Returns the light of a ray that is about to enter.
     fn start(&self, meeting: &MeetingRay) -> Inbound {
-        let &MeetingRay { met, ray, weight, luck, .. } = meeting;
-        let light = PathLight::of_eye(ray.direction, weight, self.options.polarised);
+        let &MeetingRay { met, ray, weight, light, luck, .. } = meeting;
+        let unpolarised = || PathLight::of_eye(ray.direction, weight, self.options.polarised);
+        let light = light.unwrap_or_else(unpolarised);
         Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0, luck }
     }
 
@@ -254,8 +262,9 @@ impl StoneTracer {
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Option<Loss> {
         let Inbound { met: (facet, distance), ray, left, path, bounce, .. } = inbound;
-        let DispersedRay { direction, fan, .. } = ray;
-        let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
+        let direction = ray.direction;
+        let arrival = ray.arrival(facets, facet, distance);
+        let Arrival { point, normal, .. } = arrival;
         let eta = 1.0 / self.medium.index;
         if let Some(surface) = self.frosted_surface(facet) {
             return Some(self.enter_frosted(
@@ -268,11 +277,11 @@ impl StoneTracer {
         }
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
-        let inward = refract(direction, normal, eta, (cos_i, cos_t));
         let SplitLight { reflected: glare, passed: light } = inbound.light.split(direction, normal, eta);
         let of_eta = -self.medium.spread * eta * eta;
-        let fanned = refracted_change(direction, normal, eta, (cos_i, cos_t), (fan, of_normal, of_eta));
-        let back = reflect(direction, normal, cos_i);
+        let inward =
+            ray.refracted(&arrival, &Refraction { eta: [eta, of_eta], cosines: (cos_i, cos_t) }, true);
+        let back = ray.reflected(&arrival, cos_i, true);
         meets(SurfaceEvent {
             facet: facet as u32,
             point,
@@ -283,16 +292,15 @@ impl StoneTracer {
             arriving: direction,
             light: &inbound.light,
             leaving: Some(ExitLight {
-                direction: back,
-                fan: reflected_change(direction, normal, (fan, of_normal)),
-                shift,
+                direction: back.direction,
+                fan: back.fan,
+                shift: back.shift,
                 weight: glare.weight() * left,
                 spread: 0.0,
             }),
             onward: light.weight() * left,
         });
-        let ray = DispersedRay { origin: point, direction: inward, fan: fanned, shift };
-        Some(self.bounce(facets, Inbound { ray, light, ..inbound }, least_weight, meets))
+        Some(self.bounce(facets, Inbound { ray: inward, light, ..inbound }, least_weight, meets))
     }
 
     /// Returns the surface of a facet that is frosted; `None` where it is polished.
@@ -312,7 +320,7 @@ impl StoneTracer {
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
         // A ray that has no fan here, in a medium without spread, has none at the next facet either.
-        let spread = (self.medium.spread != 0.0 || ray.is_fanned()).then_some(self.medium.spread);
+        let is_fanned = self.medium.spread != 0.0 || ray.is_fanned();
         while remaining > least_weight && rest.bounces < self.options.most_bounces {
             let (direction, index) = (ray.direction, self.medium.index);
             let Some((facet, distance)) = facets.next(ray.origin, direction) else { break };
@@ -340,15 +348,11 @@ impl StoneTracer {
                 break;
             }
             let SplitLight { reflected: onward, passed } = light.split(direction, normal, index);
+            let within = arrival.turned_over();
             let leaving = cos_transmitted(cos_i, index).map(|cos_t| {
-                let (direction, fan) = ray.refracted_outside(&arrival, index, (cos_i, cos_t), spread);
-                ExitLight {
-                    direction,
-                    fan,
-                    shift: arrival.shift,
-                    weight: passed.weight() * left,
-                    spread: 0.0,
-                }
+                let out = Refraction { eta: [index, self.medium.spread], cosines: (cos_i, cos_t) };
+                let DispersedRay { direction, fan, shift, .. } = ray.refracted(&within, &out, is_fanned);
+                ExitLight { direction, fan, shift, weight: passed.weight() * left, spread: 0.0 }
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;
@@ -364,9 +368,18 @@ impl StoneTracer {
                 leaving,
                 onward: remaining,
             });
-            (ray, light) = (ray.reflected_inside(&arrival, cos_i, spread.is_some()), onward);
+            (ray, light) = (ray.reflected(&within, cos_i, is_fanned), onward);
         }
         Loss { unresolved: remaining, ..rest }
+    }
+
+    /// Returns the light of an exit at this event, with the exit's weight; `None` where the light has no polarisation
+    /// that matters: where polarisation is not followed, and beyond a frosted facet.
+    pub(super) fn leaving_light(&self, event: &SurfaceEvent, exit: &Exit) -> Option<PathLight> {
+        if !self.options.polarised || exit.spread > 0.0 {
+            return None;
+        }
+        Some(event.onward_outside(self.medium.index)?.scaled_to(exit.weight))
     }
 
     /// Returns the facet and the distance at which a ray from outside enters; `None` where it misses.

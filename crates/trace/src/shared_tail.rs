@@ -60,7 +60,7 @@ impl SharedTail {
         let own = Medium { index: end.slant.index, ..*medium };
         let mut chances = ChainRoulette::new(ROULETTE, luck, &light, own.transmittance(path));
         let tracer = self.tracer.made_of(own);
-        let loss = tracer.follow_inside((origin, direction), (light, path), chances.least, |met| {
+        let loss = tracer.follow_inside((origin, direction), (light, path), chances.end.least, |met| {
             let factor = chances.meet(met.light, met.left, met.onward);
             if let Some(leaving) = met.leaving {
                 let share = leaving.weight * factor;

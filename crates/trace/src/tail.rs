@@ -149,7 +149,7 @@ impl<'a> Tail<'a> {
         let ray = (front.flight.ray.start(point), front.flight.ray.direction);
         let (mut strongest, mut exit) = source.strongest;
         let mut chances = ChainRoulette::new(ROULETTE, luck, &light, self.beams.medium.transmittance(path));
-        let end = self.tracer.follow_inside(ray, (light, path), chances.least, |met| {
+        let end = self.tracer.follow_inside(ray, (light, path), chances.end.least, |met| {
             let factor = chances.meet(met.light, met.left, met.onward);
             let Some(leaving) = met.leaving else { return };
             let band = self.scope.band(leaving.direction, self.beams.zenith);

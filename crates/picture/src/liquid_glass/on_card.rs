@@ -6,7 +6,6 @@ use super::{GlassPane, PaneQuality};
 use crate::Linear;
 use brillianteer_scene::Panorama;
 use brillianteer_trace::gpu::{Gpu, GpuError, PaneData, PaneStage};
-use glam::Vec3;
 
 /// A background on a graphics card, in front of which panes are drawn. Everything about a pane is data: no pane needs a
 /// shader of its own.
@@ -53,23 +52,24 @@ impl GlassPane {
             (true, PaneQuality::Medium | PaneQuality::Low) => 3,
         };
         let (outline, middle) = (pane.outline(), pane.corner + pane.size / 2.0);
-        let four = |parts: [f64; 4]| parts.map(|part| part as f32);
         let light = SurfaceLight::new(&pane);
-        let three = |v: Vec3| v.extend(0.0).to_array();
         PaneData {
-            size: [0, 0, taps, u32::from(is_over)],
-            place: four([middle.x, middle.y, pane.unit(), 0.0]),
-            half_level: four([outline.half.x, outline.half.y, outline.level.x, outline.level.y]),
-            round_corner: four([outline.round.x, outline.round.y, outline.corner, 0.0]),
-            strengths: four([
-                pane.refraction / 100.0,
-                thickness(pane.depth),
-                pane.dispersion / 100.0,
-                pane.frost / 100.0,
-            ]),
-            toward: three(light.toward),
-            between: three(light.between),
-            colour: three(light.colour),
+            size: [0; 2],
+            sample_count: taps,
+            is_over: u32::from(is_over),
+            middle: middle.as_vec2().to_array(),
+            unit: pane.unit() as f32,
+            corner: outline.corner as f32,
+            half: outline.half.as_vec2().to_array(),
+            level: outline.level.as_vec2().to_array(),
+            round: outline.round.as_vec2().to_array(),
+            refraction: (pane.refraction / 100.0) as f32,
+            thickness: thickness(pane.depth) as f32,
+            toward: light.toward.to_array(),
+            dispersion: (pane.dispersion / 100.0) as f32,
+            between: light.between.to_array(),
+            frost: (pane.frost / 100.0) as f32,
+            colour: light.colour.extend(0.0).to_array(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::tree::Beams;
 use brillianteer_math::Polytope;
-use brillianteer_optics::{cos_transmitted, reflect, refract, refracted_change};
+use brillianteer_optics::{Incidence, cos_transmitted, reflect, refract};
 use glam::DVec3;
 
 impl Beams {
@@ -19,17 +19,17 @@ impl Beams {
                 None => {
                     let (ray, eta) = (-self.view.toward, 1.0 / index);
                     let cos_i = -ray.dot(normal);
-                    let cosines = (cos_i, cos_transmitted(cos_i, eta).unwrap_or(1.0));
-                    let change = (DVec3::ZERO, DVec3::ZERO, -spread * eta * eta);
-                    (refract(ray, normal, eta, cosines), refracted_change(ray, normal, eta, cosines, change))
+                    let cos_t = cos_transmitted(cos_i, eta).unwrap_or(1.0);
+                    let incidence = incidence(ray, normal, cos_i, DVec3::ZERO);
+                    let change = incidence.refracted_change(eta, -spread * eta * eta, cos_t);
+                    (refract(ray, normal, eta, (cos_i, cos_t)), change)
                 }
                 Some(parent) => {
                     let (ray, change) = onward[parent as usize];
                     let cos_i = ray.dot(normal);
                     if let Some(cos_t) = cos_transmitted(cos_i, index) {
-                        let both = (change, DVec3::ZERO, spread);
-                        exit_changes[beam.id as usize] =
-                            refracted_change(ray, -normal, index, (cos_i, cos_t), both);
+                        let incidence = incidence(ray, -normal, cos_i, change);
+                        exit_changes[beam.id as usize] = incidence.refracted_change(index, spread, cos_t);
                     }
                     (reflect(ray, -normal, cos_i), change - normal * (2.0 * change.dot(normal)))
                 }
@@ -37,4 +37,9 @@ impl Beams {
         }
         exit_changes
     }
+}
+
+/// Returns the incidence of a ray at a facet, where the ray's direction changes by `of_direction`.
+fn incidence(direction: DVec3, normal: DVec3, cos_i: f64, of_direction: DVec3) -> Incidence<DVec3> {
+    Incidence { direction, normal, cos_i, of_direction, of_normal: None }
 }

@@ -1,8 +1,8 @@
 //! Follows a few beams, and all beams into which they split, as long as these are strong enough.
 
-use super::coherency::Coherency;
 use super::split::{BeamOutline, Facets, Landing, Ray, Splitter};
 use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, NO_EXIT, NewBeams, TreeSize};
+use crate::coherency::{Coherency, s_axis};
 use brillianteer_math::{Affine, integral_of_decay};
 use brillianteer_optics::{fresnel, reflect, refract};
 use brillianteer_scene::Medium;
@@ -17,10 +17,6 @@ const MOST_OF_A_PIECE: usize = 4096;
 
 /// The range of corners of an outline that does not exist.
 const NOWHERE: (u32, u32) = (u32::MAX, 0);
-
-/// The sine of the angle between a beam and a facet's normal below which there is no plane of incidence; none is
-/// needed there.
-pub(super) const SQUARE_ON: f64 = 1e-9;
 
 /// A beam that is still to be followed from its last facet on. Fronts that wait are boxed, because there are many.
 #[derive(Debug, Clone, Copy)]
@@ -73,13 +69,6 @@ impl Growth {
         self.left.clear();
         self.dropped = 0.0;
     }
-}
-
-/// Returns the unit axis perpendicular to a ray and a facet's normal, or `otherwise` where the ray is square to the facet.
-pub(super) fn s_axis(direction: DVec3, normal: DVec3, otherwise: DVec3) -> DVec3 {
-    let s = direction.cross(normal);
-    let length = s.length();
-    if length > SQUARE_ON { s / length } else { otherwise }
 }
 
 /// Follows beams piece by piece.
@@ -224,10 +213,9 @@ fn land(front: &Front<Flight>, path_before: Affine, landing: &Landing, beams: &B
     let cos_i = direction.dot(normal);
     let surface = fresnel(cos_i, index);
     let s = s_axis(direction, normal, *s_before);
-    let p_before = direction.cross(*s_before);
-    let (reflected, weight) = arriving.turned(s_before.dot(s), p_before.dot(s)).split(&surface);
+    let (reflected, weight) = arriving.turned_to(s, *s_before, direction).split(&surface);
     let light = if beams.polarised { reflected } else { reflected.unpolarised() };
-    let exit = surface.cos_t.map(|cos_t| {
+    let exit = surface.cos_t().map(|cos_t| {
         let direction = refract(direction, -normal, index, (cos_i, cos_t));
         BeamExit { direction, weight }
     });

@@ -5,12 +5,12 @@
 //! any order and on any core, with the same result.
 
 use super::blocks::Blocks;
-use super::coherency::Coherency;
 use super::effort::BeamEffort;
-use super::follow::{Flight, Follower, Front, SLIVER, attenuated, s_axis};
+use super::follow::{Flight, Follower, Front, SLIVER, attenuated};
 use super::split::{Facets, Ray};
 use super::sums::{BeamAdder, BeamSums, Standing};
 use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, ROOT, TreeSize};
+use crate::coherency::{Coherency, s_axis};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use brillianteer_optics::{fresnel, reflect, refract};
@@ -297,7 +297,7 @@ impl<'a> Tracer<'a> {
         let surface = fresnel(cos_i, eta);
         let (light, glare) = Coherency::entered(&surface);
         let light = if self.beams.polarised { light } else { light.unpolarised() };
-        let cosines = (cos_i, surface.cos_t.unwrap_or(0.0));
+        let cosines = (cos_i, surface.cos_t);
         let direction = refract(-view.toward, plane.normal, eta, cosines);
         let TreeSize { nodes: id, corners, exits: exit } = self.beams.size();
         let node = BeamNode {

@@ -1,6 +1,6 @@
 //! Groups planes into clusters, so that a shader need not try all planes of a large stone.
 
-use super::gpu_types::Cluster;
+use super::gpu_types::{Cluster, three};
 use brillianteer_math::Plane;
 
 /// The most planes in a cluster.
@@ -47,8 +47,12 @@ fn cluster(planes: &[Plane], order: &[u32], first: usize) -> Cluster {
     // Bounds are widened slightly, because they must hold in f32 too.
     let wide = |x: f64| (x * (1.0 + 1e-6) + 1e-6) as f32;
     Cluster {
-        middle: [normal.x as f32, normal.y as f32, normal.z as f32, offset as f32],
-        spread: [wide(spread), wide(depth), first as f32, order.len() as f32],
+        normal: three(normal),
+        offset: offset as f32,
+        normal_spread: wide(spread),
+        offset_spread: wide(depth),
+        first: first as u32,
+        count: order.len() as u32,
     }
 }
 
@@ -70,14 +74,15 @@ mod tests {
         sorted.sort_unstable();
         assert!(sorted.into_iter().eq(0..777));
         let mut next = 0;
-        for Cluster { middle: [x, y, z, offset], spread: [spread, depth, first, count] } in &clusters {
-            assert_eq!(*first as usize, next);
-            next += *count as usize;
-            for &k in &order[*first as usize..next] {
+        for cluster in &clusters {
+            assert_eq!(cluster.first as usize, next);
+            next += cluster.count as usize;
+            for &k in &order[cluster.first as usize..next] {
                 let plane = planes[k as usize];
-                let middle = DVec3::from([f64::from(*x), f64::from(*y), f64::from(*z)]);
-                assert!(plane.normal.distance(middle) <= f64::from(*spread));
-                assert!((plane.offset - f64::from(*offset)).abs() <= f64::from(*depth));
+                let middle = DVec3::from(cluster.normal.map(f64::from));
+                assert!(plane.normal.distance(middle) <= f64::from(cluster.normal_spread));
+                let off = (plane.offset - f64::from(cluster.offset)).abs();
+                assert!(off <= f64::from(cluster.offset_spread));
             }
         }
         assert!(next == 777 && clusters.len() < 120, "{} clusters", clusters.len());

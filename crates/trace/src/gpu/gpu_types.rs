@@ -2,8 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Declares a struct, and the text that declares it in WGSL. Its fields are either all one number wide or all four
-/// numbers wide, so that Rust and WGSL lay them out alike.
+/// Declares a struct, and the text that declares it in WGSL. Rust and WGSL lay out its fields alike where vectors of two
+/// numbers begin at an even number, those of three and four at a multiple of four, and the whole is a multiple of
+/// four; a test checks it.
 macro_rules! both_sides {
     ($(#[$meta:meta])* $name:ident, $wgsl:ident { $($(#[$doc:meta])* $field:ident: $kind:ident,)* }) => {
         $(#[$meta])*
@@ -14,12 +15,27 @@ macro_rules! both_sides {
         /// The declaration of the struct in WGSL.
         pub(super) const $wgsl: &str =
             concat!("struct ", stringify!($name), " {", $(stringify!($field), ": ", both_sides!(# $kind), ",",)* "}\n");
+
+        impl $name {
+            /// The name and the place, in bytes, of each field.
+            #[cfg(test)]
+            pub(super) const PLACES: &[(&str, usize)] =
+                &[$((stringify!($field), std::mem::offset_of!(Self, $field)),)*];
+        }
     };
     (@ f32) => { f32 };
+    (@ u32) => { u32 };
+    (@ vec2f) => { [f32; 2] };
+    (@ vec2u) => { [u32; 2] };
+    (@ vec3f) => { [f32; 3] };
     (@ vec4f) => { [f32; 4] };
     (@ vec4u) => { [u32; 4] };
     (@ two_vec4f) => { [f32; 8] };
     (# f32) => { "f32" };
+    (# u32) => { "u32" };
+    (# vec2f) => { "vec2f" };
+    (# vec2u) => { "vec2u" };
+    (# vec3f) => { "vec3f" };
     (# vec4f) => { "vec4f" };
     (# vec4u) => { "vec4u" };
     (# two_vec4f) => { "array<vec4f, 2>" };
@@ -28,34 +44,70 @@ macro_rules! both_sides {
 both_sides! {
     /// The parameters of a dispatch, for scopes and for light.
     Frame, FRAME_WGSL {
-        /// x: the most loop turns of a ray, where rays count them; y: the number of the sample pass; z: the number of
-        /// bodies of metal; w: the sixteenths of a turn that one plane counts for. The field comes first because
-        /// Mesa's software driver (22.3) writes the first number of a uniform into the shader, and compiles the
-        /// shader anew at each dispatch where that number allows more operations than before, as with a tilted axis.
-        most: vec4u,
-        /// xyz: the image's x axis; w: the reach of the stones from the origin.
-        right: vec4f,
-        /// xyz: the image's y axis; w: the side of a pixel.
-        up: vec4f,
-        /// xyz: the axis to the eye; w: the eye's distance, 0 for parallel rays.
-        toward: vec4f,
-        /// x: the least weight that is followed; y: beside metal, the weight below which light goes on to another
-        /// body by chance; zw: the place of the ray in its pixel, or in its cell of the pixel's grid.
-        limits: vec4f,
-        /// x: the number of stones; y: the number of wavelengths; z: the most bounces; w: 1 for polarised light.
-        counts: vec4u,
-        /// x: pixels across; y: pixels down; z: the first row of the strip that the buffer holds; w: the number of
-        /// its rows.
-        film: vec4u,
-        /// x: in scopes, the number of the cell in the pixel's grid; y: the cells along each side of a pixel; z: the
-        /// first wavelength; w: the one after the last.
-        turn: vec4u,
-        /// The strip's tiles of 8 by 8 pixels. x: the first tile of this dispatch; y: the number of its tiles; z: the
-        /// stride of their order through the strip; w: the number of all tiles.
-        tiles: vec4u,
-        /// x: the share of refraction's change of direction that is followed, 1 for physics; yz: the stretch of a
-        /// pixel that a ray represents, in image coordinates; w is unused.
-        sample: vec4f,
+        /// The most loop turns of a ray, where rays count them. The field comes first because Mesa's software driver (22.3)
+        /// writes the first number of a uniform into the shader, and compiles the shader anew at each dispatch where
+        /// that number allows more operations than before, as with a tilted axis.
+        most_turns: u32,
+        /// The number of the sample pass.
+        pass_number: u32,
+        /// The number of bodies of metal.
+        metal_count: u32,
+        /// The sixteenths of a turn that one plane counts for.
+        plane_sixteenths: u32,
+        /// The image's x axis.
+        right: vec3f,
+        /// The reach of the stones from the origin.
+        reach: f32,
+        /// The image's y axis.
+        up: vec3f,
+        /// The side of a pixel.
+        pixel: f32,
+        /// The axis to the eye.
+        toward: vec3f,
+        /// The eye's distance, 0 for parallel rays.
+        eye_distance: f32,
+        /// The least weight that is followed.
+        least_weight: f32,
+        /// Beside metal, the weight below which light goes on to another body by chance.
+        by_chance: f32,
+        /// The place of the ray in its pixel, or in its cell of the pixel's grid, 0 to 1 across and down.
+        place: vec2f,
+        /// The number of stones.
+        stone_count: u32,
+        /// The number of wavelengths.
+        wavelength_count: u32,
+        /// The most bounces.
+        most_bounces: u32,
+        /// 1 for polarised light, 0 otherwise.
+        is_polarised: u32,
+        /// The film's pixels across and down.
+        size: vec2u,
+        /// The first row of the strip that the buffer holds.
+        first_row: u32,
+        /// The number of the strip's rows.
+        row_count: u32,
+        /// In scopes, the number of the cell in the pixel's grid.
+        cell: u32,
+        /// The cells along each side of a pixel.
+        grid: u32,
+        /// The first wavelength of the dispatch.
+        first_wavelength: u32,
+        /// The wavelength after the last one.
+        end_wavelength: u32,
+        /// The first of the strip's tiles of 8 by 8 pixels in this dispatch.
+        first_tile: u32,
+        /// The number of the dispatch's tiles.
+        tile_count: u32,
+        /// The stride of the tiles' order through the strip.
+        tile_stride: u32,
+        /// The number of all tiles of the strip.
+        all_tiles: u32,
+        /// The stretch of a pixel that a ray represents, in image coordinates.
+        stretch: vec2f,
+        /// The share of refraction's change of direction that is followed, 1 for physics.
+        strength: f32,
+        /// Fills up the last row.
+        unused: f32,
     }
 }
 
@@ -74,17 +126,20 @@ both_sides! {
 both_sides! {
     /// One stone, or body of metal: the ball around it, the place of its surface in the buffers, and its pose.
     Body, BODY_WGSL {
-        /// xyz: the middle, in the world, of a ball around the stone; w: the ball's radius there.
-        middle: vec4f,
-        /// For planes: the first plane, the one after the last, the first cluster, the one after the last. For
-        /// triangles: the first box, and the bits of the triangles' reach from the frame's origin; for metal also the
-        /// number of triangles between a triangle and its smooth normals, and the number of the finish. For a glass
-        /// shape: x is its index among the shapes.
+        /// The middle, in the world, of a ball around the stone.
+        middle: vec3f,
+        /// The ball's radius in the world.
+        radius: f32,
+        /// The place of the surface, in the form that its kind has: `PlaneRange` in shaders/leaving.wgsl for planes,
+        /// `MeshRange` in shaders/bvh.wgsl for triangles. For a glass shape the first number is its index among the
+        /// shapes.
         range: vec4u,
         /// The unit quaternion that rotates the body's frame into the world.
         turn: vec4f,
-        /// xyz: the frame's origin in the world; w: the length of its unit there.
-        place: vec4f,
+        /// The frame's origin in the world.
+        place: vec3f,
+        /// The length in the world of the frame's unit.
+        unit: f32,
     }
 }
 
@@ -103,17 +158,40 @@ both_sides! {
 }
 
 both_sides! {
+    /// The finish of a body of metal at one wavelength.
+    Finish, FINISH_WGSL {
+        /// The real and the imaginary part of the metal's index.
+        index: vec2f,
+        /// The share of repeatedly reflected light that the metal does not absorb.
+        again: f32,
+        /// The number of the table of its rough surface.
+        surface: f32,
+    }
+}
+
+both_sides! {
     /// The environment around the stones.
     Environment, ENVIRONMENT_WGSL {
-        /// xyz: the light's x axis; w: the side of its map, in texels.
-        right: vec4f,
-        /// xyz: the light's y axis; w: the number of lamps.
-        up: vec4f,
-        /// xyz: the light's axis; w: the number of the map's last level.
-        zenith: vec4f,
-        /// x: the backplate's distance behind the origin; y: its width, 0 for none; z: the cosine of the half angle
-        /// of the observer's head, above 1 for none; w: the least width of the edge of the head's shadow.
-        photo: vec4f,
+        /// The light's x axis.
+        right: vec3f,
+        /// The side of the light's map, in texels.
+        map_side: f32,
+        /// The light's y axis.
+        up: vec3f,
+        /// The number of lamps.
+        lamp_count: u32,
+        /// The light's axis.
+        zenith: vec3f,
+        /// The number of the map's last level.
+        last_level: f32,
+        /// The backplate's distance behind the origin.
+        backplate_distance: f32,
+        /// The backplate's width, 0 for none.
+        backplate_width: f32,
+        /// The cosine of the half angle of the observer's head, above 1 for none.
+        cos_head: f32,
+        /// The least width of the edge of the head's shadow.
+        head_edge: f32,
         /// x: 1 where rays that miss the stones see the environment.
         backdrop: vec4f,
     }
@@ -122,8 +200,10 @@ both_sides! {
 both_sides! {
     /// A small disc of even light.
     Lamp, LAMP_WGSL {
-        /// xyz: the unit direction to the lamp's middle; w: the square of the chord from there to its edge.
-        toward: vec4f,
+        /// The unit direction to the lamp's middle.
+        toward: vec3f,
+        /// The square of the chord from the middle to the edge.
+        chord_squared: f32,
         /// The radiance by channel.
         radiance: vec4f,
     }
@@ -146,10 +226,16 @@ both_sides! {
 both_sides! {
     /// The light of one pixel: sums over rays and wavelengths.
     RadiancePixel, RADIANCE_PIXEL_WGSL {
-        /// xyz: red, green, blue; w: cover.
-        colour: vec4f,
-        /// x: unresolved; y: absorbed; the others are unused.
-        rest: vec4f,
+        /// Red, green and blue.
+        colour: vec3f,
+        /// The number of rays that see a body or the environment.
+        cover: f32,
+        /// The light that was not followed to its end.
+        unresolved: f32,
+        /// The light that was absorbed.
+        absorbed: f32,
+        /// Fills up the last row.
+        unused: vec2f,
     }
 }
 
@@ -162,71 +248,118 @@ both_sides! {
         surface: two_vec4f,
         /// The share of rays whose strongest exit lies in the band.
         strongest: two_vec4f,
-        /// x: absorbed; y: unresolved; z: the share of rays that hit the stone; w: the share of rays without a
-        /// certain strongest exit.
-        rest: vec4f,
+        /// The share of the light that was absorbed.
+        absorbed: f32,
+        /// The share of the light that was not followed to its end.
+        unresolved: f32,
+        /// The share of the pixel's rays that hit the stone.
+        hit: f32,
+        /// The share of the pixel's rays whose strongest exit is not certain.
+        undecided: f32,
     }
 }
 
 both_sides! {
     /// A cluster: planes of similar normals and offsets.
     Cluster, CLUSTER_WGSL {
-        /// xyz: the mean normal; w: the mean offset.
-        middle: vec4f,
-        /// x, y: the largest deviation of its normals and of its offsets from these; z: the first plane; w: the
-        /// number of planes.
-        spread: vec4f,
+        /// The mean normal.
+        normal: vec3f,
+        /// The mean offset.
+        offset: f32,
+        /// The largest deviation of its normals from the mean.
+        normal_spread: f32,
+        /// The largest deviation of its offsets from the mean.
+        offset_spread: f32,
+        /// The first plane.
+        first: u32,
+        /// The number of planes.
+        count: u32,
     }
 }
 
 both_sides! {
-    /// A triangle. The fourth numbers of its corners are the normal of its facet. An entry of smooth normals holds
-    /// them in place of the corners.
+    /// A triangle with the normal of its facet. An entry of smooth normals holds them in place of the corners.
     Triangle, TRIANGLE_WGSL {
-        /// xyz: first corner; w: the normal's x.
-        a: vec4f,
-        /// xyz: second corner; w: the normal's y.
-        b: vec4f,
-        /// xyz: third corner; w: the normal's z.
-        c: vec4f,
+        /// The first corner.
+        a: vec3f,
+        /// The normal's x.
+        normal_x: f32,
+        /// The second corner.
+        b: vec3f,
+        /// The normal's y.
+        normal_y: f32,
+        /// The third corner.
+        c: vec3f,
+        /// The normal's z.
+        normal_z: f32,
     }
 }
 
 both_sides! {
     /// A glass shape: [`brillianteer_math::ImplicitSurface`] in units of its reach.
     ImplicitSurface, IMPLICIT_SURFACE_WGSL {
-        /// x: half the length of the core; y: the radius of the ball that is rolled around it; z: the reach of the
-        /// body without its wave; w is unused.
-        size: vec4f,
-        /// For a rectangle: its half sides, the radius of the disc rolled around it, and 0. For a triangle: its
-        /// corner at +y, the z of its apex, and 1.
-        outline: vec4f,
-        /// xy: the outward unit normal of a triangle's flank at +y; z: the flank's length; w: 1 where there is a
-        /// wave.
-        flank: vec4f,
-        /// x: the wave's amplitude; y: the number of waves per unit of length; z: the phase in turns; w is unused.
-        wave: vec4f,
+        /// Half the length of the core.
+        half: f32,
+        /// The radius of the ball that is rolled around the core.
+        edge: f32,
+        /// The reach of the body without its wave.
+        body_reach: f32,
+        /// 1 where the outline is a triangle, 0 where it is a rectangle.
+        is_triangle: u32,
+        /// The half sides of a rectangle, or the corner of a triangle at +y.
+        corner: vec2f,
+        /// The radius of the disc rolled around a rectangle, or the z of a triangle's apex.
+        round: f32,
+        /// 1 where there is a wave, 0 otherwise.
+        has_wave: u32,
+        /// The outward unit normal of a triangle's flank at +y.
+        flank_normal: vec2f,
+        /// The flank's length.
+        flank_length: f32,
+        /// The wave's amplitude.
+        amplitude: f32,
+        /// The number of waves per unit of length.
+        waves: f32,
+        /// The wave's phase, in turns.
+        phase: f32,
+        /// Fills up the last row.
+        unused: vec2f,
     }
 }
 
 both_sides! {
     /// A pane of liquid glass over a picture, in front of a background.
     PaneData, PANE_DATA_WGSL {
-        /// x, y: pixels across and down; z: samples of the frost, 0 where there is no pane; w: 1 over the background, 0 alone.
-        size: vec4u,
-        /// xy: the pane's middle in pixels; z: its shorter side in pixels; w is unused.
-        place: vec4f,
-        /// xy: half the sides in units of the shorter one; zw: the places where the rim begins.
-        half_level: vec4f,
-        /// xy: the share of the square in the ramps; z: the degree to which the ramps exclude each other; w is
-        /// unused.
-        round_corner: vec4f,
-        /// x: refraction, 0 to 1; y: thickness; z: dispersion, 0 to 1; w: frost, 0 to 1.
-        strengths: vec4f,
-        /// xyz: unit direction toward the light.
-        toward: vec4f,
-        /// xyz: the unit direction half-way between those toward the light and toward the eye.
-        between: vec4f,
+        /// The picture's pixels across and down.
+        size: vec2u,
+        /// The number of samples of the frost, 0 where there is no pane.
+        sample_count: u32,
+        /// 1 over the background, 0 alone.
+        is_over: u32,
+        /// The pane's middle, in pixels.
+        middle: vec2f,
+        /// The pane's shorter side, in pixels.
+        unit: f32,
+        /// The degree to which the ramps exclude each other.
+        corner: f32,
+        /// Half the sides, in units of the shorter one.
+        half: vec2f,
+        /// The places where the rim begins.
+        level: vec2f,
+        /// The share of the square in the ramps.
+        round: vec2f,
+        /// The refraction, 0 to 1.
+        refraction: f32,
+        /// The thickness.
+        thickness: f32,
+        /// The unit direction toward the light.
+        toward: vec3f,
+        /// The dispersion, 0 to 1.
+        dispersion: f32,
+        /// The unit direction half-way between those toward the light and toward the eye.
+        between: vec3f,
+        /// The frost, 0 to 1.
+        frost: f32,
         /// xyz: the colour of the light.
         colour: vec4f,
     }
@@ -235,34 +368,20 @@ both_sides! {
 both_sides! {
     /// A box around triangles, as [`brillianteer_math::BvhNode`].
     BvhNode, BVH_NODE_WGSL {
-        /// xyz: the least coordinates; w: for a box of boxes, the distance in nodes to its second half; for a box of
-        /// triangles, its first triangle.
-        low: vec4f,
-        /// xyz: the greatest coordinates; w: the number of triangles directly in the box, 0 for a box of boxes.
-        high: vec4f,
+        /// The least coordinates.
+        low: vec3f,
+        /// For a box of boxes, the distance in nodes to its second half; for a box of triangles, its first triangle.
+        start: u32,
+        /// The greatest coordinates.
+        high: vec3f,
+        /// The number of triangles directly in the box, 0 for a box of boxes.
+        count: u32,
     }
 }
 
-impl ScopePixel {
-    /// Returns the share of the light that was absorbed.
-    pub fn absorbed(&self) -> f32 {
-        self.rest[0]
-    }
-
-    /// Returns the share of the light that was not followed to its end.
-    pub fn unresolved(&self) -> f32 {
-        self.rest[1]
-    }
-
-    /// Returns the share of the pixel's rays that hit the stone.
-    pub fn hit(&self) -> f32 {
-        self.rest[2]
-    }
-
-    /// Returns the share of the pixel's rays whose strongest exit is not certain.
-    pub fn undecided(&self) -> f32 {
-        self.rest[3]
-    }
+/// Packs a vector as f32.
+pub(super) fn three(v: glam::DVec3) -> [f32; 3] {
+    v.as_vec3().to_array()
 }
 
 /// Packs a vector and a fourth number as f32.

@@ -1,7 +1,7 @@
 //! Traces pictures under light on a graphics card.
 
 use super::device::{Gpu, GpuError};
-use super::gpu_types::{self, Lamp, Response, with};
+use super::gpu_types::{self, Lamp, Response, three, with};
 use super::limits::MOST_WAVELENGTHS;
 use super::metals::GpuMetals;
 use super::solids::Solids;
@@ -11,6 +11,7 @@ use crate::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use brillianteer_base::{Stopped, Watch};
 use brillianteer_math::PosedSolid;
 use brillianteer_scene::{Film, Instance, MOST_LAMPS, Mipmap, Panorama};
+use bytemuck::Zeroable;
 use glam::DVec3;
 use std::ops::Range;
 use wgpu::util::DeviceExt;
@@ -76,11 +77,11 @@ impl<'a> ByCard<'a> {
             options: lit_scene.options,
         };
         let frame = eye.frame(gpu, &solids, wavelengths);
-        solids.enough(gpu, frame.counts[2], lit_scene.options.most_bounces)?;
+        solids.enough(gpu, frame.most_bounces, lit_scene.options.most_bounces)?;
         let kernel = gpu.lights.kernel(&gpu.device, solids.surfaces.facets, solids.metals.is_some());
         // A software driver counts the loop turns of all wavelengths of a dispatch together.
         let at_once = if gpu.is_software() { 1 } else { AT_ONCE };
-        let cost = (solids.cost(frame.counts[2]), at_once);
+        let cost = (solids.cost(frame.most_bounces), at_once);
         let count = rows.len() as u32;
         let stage = Stage::new::<gpu_types::RadiancePixel>(gpu, kernel, (frame, count), cost, entries)?;
         Ok(Self {
@@ -121,9 +122,9 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
         self.write_frame(pass);
         let stretch = pass.footprint_in_image(&self.film).as_vec2();
         // Chance ends weak light where metal sends it back to stones again and again; else all light is followed.
-        self.stage.frame.limits[1] = if self.metals.is_some() { pass.by_chance as f32 } else { 0.0 };
-        self.stage.frame.most[1] = pass.number;
-        self.stage.frame.sample = [pass.strength as f32, stretch.x, stretch.y, 0.0];
+        self.stage.frame.by_chance = if self.metals.is_some() { pass.by_chance as f32 } else { 0.0 };
+        self.stage.frame.pass_number = pass.number;
+        (self.stage.frame.strength, self.stage.frame.stretch) = (pass.strength as f32, stretch.to_array());
         let origin = self.film.shift();
         let layer =
             StripLayer { shift: pass.shift + origin, origin, cell: [0, 1], bands: self.wavelengths as u32 };
@@ -136,10 +137,10 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
         let per_pass = 1.0 / f64::from(self.passes.max(1));
         let share = per_pass / self.wavelengths as f64;
         let mut pixel = |sum: &gpu_types::RadiancePixel| {
-            let [red, green, blue, cover] = sum.colour.map(f64::from);
-            let [unresolved, absorbed, ..] = sum.rest.map(|x| f64::from(x) * share);
-            let colour = DVec3::new(red, green, blue) * per_pass;
-            each(&RadiancePixel { colour, cover: cover * share, unresolved, absorbed });
+            let [cover, unresolved, absorbed] =
+                [sum.cover, sum.unresolved, sum.absorbed].map(|x| f64::from(x) * share);
+            let colour = DVec3::from(sum.colour.map(f64::from)) * per_pass;
+            each(&RadiancePixel { colour, cover, unresolved, absorbed });
         };
         let count = self.rows.len() as u32;
         Ok(self.stage.read(count, |pixels| pixels.iter().for_each(&mut pixel))?)
@@ -169,12 +170,13 @@ impl GpuEnvironment {
             .lamps
             .iter()
             .map(|l| Lamp {
-                toward: with(l.toward, l.chord_squared),
+                toward: three(l.toward),
+                chord_squared: l.chord_squared as f32,
                 radiance: l.radiance.as_vec4().to_array(),
             })
             .collect();
         let uniform = environment_uniform(environment, lamps.len());
-        lamps.resize(MOST_LAMPS, Lamp { toward: [0.0; 4], radiance: [0.0; 4] });
+        lamps.resize(MOST_LAMPS, Lamp::zeroed());
         let side = environment.map.side as u32;
         let levels: Vec<&[[f32; 4]]> = environment.map.levels.iter().map(Vec::as_slice).collect();
         let none = Mipmap::new(Panorama { width: 1, height: 1, pixels: vec![[0.0; 3]] });
@@ -214,10 +216,16 @@ fn environment_uniform(environment: &Environment, lamps: usize) -> gpu_types::En
     let cos_head = if *head > 0.0 { head.cos() } else { 3.0 };
     let (distance, width) = behind.map_or((0.0, 0.0), |b| (b.distance, b.width));
     gpu_types::Environment {
-        right: with(basis.right, sky.side as f64),
-        up: with(basis.up, lamps as f64),
-        zenith: with(basis.toward, (sky.levels.len() - 1) as f64),
-        photo: [distance, width, cos_head, HEAD_EDGE].map(|x| x as f32),
+        right: three(basis.right),
+        map_side: sky.side as f32,
+        up: three(basis.up),
+        lamp_count: lamps as u32,
+        zenith: three(basis.toward),
+        last_level: (sky.levels.len() - 1) as f32,
+        backplate_distance: distance as f32,
+        backplate_width: width as f32,
+        cos_head: cos_head as f32,
+        head_edge: HEAD_EDGE as f32,
         backdrop: [f32::from(u8::from(*backdrop)), 0.0, 0.0, 0.0],
     }
 }

@@ -2,7 +2,7 @@
 //! wavelength.
 
 use super::device::{Gpu, GpuError};
-use super::gpu_types::Body;
+use super::gpu_types::{self, Body};
 use super::limits::{MOST_METALS, MOST_ROUGHNESSES};
 use super::solids::body;
 use brillianteer_math::{Ball, ShadedMesh};
@@ -93,8 +93,9 @@ impl GpuMetals {
     pub fn finishes(&self, indices: &[Vec<Complex64>]) -> impl Iterator<Item = [f32; 4]> {
         self.finishes.iter().flat_map(|Finish { surface, table, body, .. }| {
             let of_band = |&index: &Complex64| {
-                let again = surface.of_metal(index).again();
-                [index.re, index.im, again, *table as f64].map(|x| x as f32)
+                let again = surface.of_metal(index).again() as f32;
+                let index = [index.re as f32, index.im as f32];
+                bytemuck::cast(gpu_types::Finish { index, again, surface: *table as f32 })
             };
             indices[*body].iter().map(of_band)
         })

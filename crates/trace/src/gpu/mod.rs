@@ -7,6 +7,7 @@ mod clusters;
 mod device;
 mod fields;
 mod gpu_types;
+mod imports;
 mod light;
 mod limits;
 mod metals;

@@ -1,7 +1,8 @@
 //! Draws panes of liquid glass on a graphics card. No ray is traced.
 
 use super::device::{Gpu, GpuError};
-use super::gpu_types::{PANE_DATA_WGSL, PaneData};
+use super::gpu_types::PaneData;
+use super::imports::joined;
 use super::shaders::compiled;
 use wgpu::BufferUsages;
 
@@ -21,7 +22,7 @@ pub struct PaneStage<'a> {
 
 /// Returns the text of the shader.
 pub(super) fn pane_source() -> String {
-    [PANE_DATA_WGSL, include_str!("../../../../shaders/liquid_glass.wgsl")].concat()
+    joined(&["liquid_glass"])
 }
 
 impl<'a> PaneStage<'a> {
@@ -74,7 +75,7 @@ impl<'a> PaneStage<'a> {
     pub fn draw(&self, pane: &PaneData) -> Result<(), GpuError> {
         let pipeline = self.gpu.panes.get_or_init(|| compiled(&self.gpu.device, pane_source()));
         let [width, height] = self.size;
-        let data = PaneData { size: [width, height, pane.size[2], pane.size[3]], ..*pane };
+        let data = PaneData { size: self.size, ..*pane };
         self.gpu.queue.write_buffer(&self.data, 0, bytemuck::bytes_of(&data));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {

@@ -8,13 +8,32 @@ mod rings;
 
 use super::Gpu;
 use super::gpu_types;
+use super::imports::joined;
 use super::pane::pane_source;
 use super::peak::{ARITHMETIC_WGSL, MEMORY_WGSL};
 use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
-use brillianteer_optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
+use brillianteer_optics::{Fresnel, Incidence, fresnel, reflect, refract};
 use glam::DVec3;
 use std::io::Write;
-use wgpu::naga::{front, valid};
+use wgpu::naga::{self, front, valid};
+
+/// Returns the fields of a struct of a shader with their places in bytes, and the size of the struct.
+fn layout<'a>(module: &'a naga::Module, name: &str) -> (Vec<(&'a str, usize)>, usize) {
+    let found = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name));
+    let Some(naga::TypeInner::Struct { members, span }) = found.map(|(_, t)| &t.inner) else {
+        panic!("no struct {name}");
+    };
+    let place = |m: &'a naga::StructMember| (m.name.as_deref().unwrap_or_default(), m.offset as usize);
+    (members.iter().map(place).collect(), *span as usize)
+}
+
+/// Checks that a shader lays out structs as Rust does.
+macro_rules! assert_laid_out {
+    ($module:ident: $($name:ident),+) => {$(
+        let own = (gpu_types::$name::PLACES.to_vec(), size_of::<gpu_types::$name>());
+        assert_eq!(layout(&$module, stringify!($name)), own);
+    )+};
+}
 
 #[test]
 fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
@@ -27,34 +46,23 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
         let mut validator =
             valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());
         validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
-        let size = |name: &str| {
-            let found = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name));
-            found.and_then(|(_, t)| match t.inner {
-                wgpu::naga::TypeInner::Struct { span, .. } => Some(span as usize),
-                _ => None,
-            })
-        };
-        assert_eq!(size("Frame"), Some(size_of::<gpu_types::Frame>()));
+        assert_laid_out!(module: Frame, Body, Medium);
         if facets == ShaderSurface::Many {
-            assert_eq!(size("Cluster"), Some(size_of::<gpu_types::Cluster>()));
+            assert_laid_out!(module: Cluster);
         }
         if facets == ShaderSurface::Triangles || has_metal {
-            assert_eq!(size("Triangle"), Some(size_of::<gpu_types::Triangle>()));
-            assert_eq!(size("BvhNode"), Some(size_of::<gpu_types::BvhNode>()));
+            assert_laid_out!(module: Triangle, BvhNode);
         }
         if matches!(facets, ShaderSurface::Smooth | ShaderSurface::Wavy) {
-            assert_eq!(size("ImplicitSurface"), Some(size_of::<gpu_types::ImplicitSurface>()));
+            assert_laid_out!(module: ImplicitSurface);
         }
-        assert_eq!(size("Body"), Some(size_of::<gpu_types::Body>()));
-        assert_eq!(size("Medium"), Some(size_of::<gpu_types::Medium>()));
+        if has_metal {
+            assert_laid_out!(module: Finish);
+        }
         if reading == ShaderTask::Scope {
-            assert_eq!(size("Bands"), Some(size_of::<gpu_types::Bands>()));
-            assert_eq!(size("ScopePixel"), Some(size_of::<gpu_types::ScopePixel>()));
+            assert_laid_out!(module: Bands, ScopePixel);
         } else {
-            assert_eq!(size("Environment"), Some(size_of::<gpu_types::Environment>()));
-            assert_eq!(size("Lamp"), Some(size_of::<gpu_types::Lamp>()));
-            assert_eq!(size("Response"), Some(size_of::<gpu_types::Response>()));
-            assert_eq!(size("RadiancePixel"), Some(size_of::<gpu_types::RadiancePixel>()));
+            assert_laid_out!(module: Environment, Lamp, Response, RadiancePixel);
         }
     }
 }
@@ -66,6 +74,9 @@ fn the_shaders_that_measure_a_card_or_draw_panes_are_valid() {
         let mut validator =
             valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());
         validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+        if text.contains("PaneData") {
+            assert_laid_out!(module: PaneData);
+        }
     }
 }
 
@@ -100,13 +111,14 @@ fn meeting(@builtin(global_invocation_id) id: vec3u) {
     let f = fresnel(cos_i, eta);
     let d = vec3f(sqrt(max(1.0 - cos_i * cos_i, 0.0)), 0.0, -cos_i);
     let n = vec3f(0.0, 0.0, 1.0);
-    let light = turned(vec4f(0.6, 0.25, 0.1, -0.2), cos(given[id.x].z), sin(given[id.x].z));
+    let light = turned(Coherency(0.6, 0.25, 0.1, -0.2), cos(given[id.x].z), sin(given[id.x].z));
+    let up = reflected(light, f);
     found[id.x] = array<vec4f, 7>(
         vec4f(f.r_s, f.r_p),
         vec4f(reflect_ray(d, n, cos_i), f.cos_t),
-        vec4f(refract_ray(d, n, eta, cos_i, f.cos_t), passed(light, f)),
-        light,
-        reflected(light, f),
+        vec4f(refract_ray(d, n, eta, cos_i, f.cos_t), weight_of(transmitted(light, f))),
+        vec4f(light.ss, light.pp, light.re, light.im),
+        vec4f(up.ss, up.pp, up.re, up.im),
         // Near the critical angle the change grows beyond what f32 holds.
         vec4f(refracted_change(d, n, eta, cos_i, f.cos_t, OF_D, OF_N, 0.05) * f.cos_t * f.cos_t, 0.0),
         vec4f(reflected_change(d, n, OF_D, OF_N), 0.0),
@@ -118,7 +130,7 @@ fn meeting(@builtin(global_invocation_id) id: vec3u) {
 fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
     let f = fresnel(cos_i, eta);
     let (d, n) = (DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i), DVec3::Z);
-    let cos_t = f.cos_t.unwrap_or(0.0);
+    let cos_t = f.cos_t;
     let (up, on) = (reflect(d, n, cos_i), refract(d, n, eta, (cos_i, cos_t)));
     let [ss, pp, re, im] = [0.6, 0.25, 0.1, -0.2];
     let (sin, cos) = turn.sin_cos();
@@ -129,8 +141,9 @@ fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
         im,
     ];
     let (of_d, of_n) = (DVec3::new(0.03, -0.01, 0.02), DVec3::new(0.02, 0.04, 0.0));
-    let moved = refracted_change(d, n, eta, (cos_i, cos_t.max(1e-9)), (of_d, of_n, 0.05)) * cos_t * cos_t;
-    let mirrored = reflected_change(d, n, (of_d, of_n));
+    let incidence = Incidence { direction: d, normal: n, cos_i, of_direction: of_d, of_normal: Some(of_n) };
+    let moved = incidence.refracted_change(eta, 0.05, cos_t.max(1e-9)) * cos_t * cos_t;
+    let mirrored = incidence.reflected_change();
     let Fresnel { r_s, r_p, .. } = f;
     let cross = r_s * r_p.conj() * num_complex::Complex64::new(light[2], light[3]);
     let (s, p) = (f.reflectance_s(), f.reflectance_p());
@@ -151,7 +164,7 @@ fn the_shaders_optics_are_those_of_the_library() {
     let etas = [1.0 / 2.4175, 0.75, 1.33, 1.77, 2.4175, 2.9];
     let given: Vec<[f32; 4]> =
         (0..6000).map(|k| [(k / 6) as f32 / 999.0, etas[k % 6], 0.001 * k as f32, 0.0]).collect();
-    let text = include_str!("../../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
+    let text = joined(&["optics"]) + MEETING_WGSL;
     let found = run(&gpu, text, &given, None);
     // The tolerance is the error of the root of 1e-3 in f32.
     let (count, largest) = compared(&given, &found, 1.0);

@@ -67,9 +67,9 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
     let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
     let frame = eye.frame(gpu, &solids, 1);
-    solids.enough(gpu, frame.counts[2], shot.options.most_bounces)?;
+    solids.enough(gpu, frame.most_bounces, shot.options.most_bounces)?;
     let kernel = gpu.scopes.kernel(&gpu.device, solids.surfaces.facets, false);
-    Stage::new::<ScopePixel>(gpu, kernel, (frame, rows), (solids.cost(frame.counts[2]), 1), entries)
+    Stage::new::<ScopePixel>(gpu, kernel, (frame, rows), (solids.cost(frame.most_bounces), 1), entries)
 }
 
 fn bands(shot: &ScopeShot) -> Bands {

@@ -1,4 +1,4 @@
-//! The shaders, which are put together as text and compiled when first used.
+//! The shaders, which `imports` joins from the files that each of them names, and which are compiled when first used.
 //!
 //! `trace.wgsl` follows the chain of bounces. What it calls is in one of several files:
 //!
@@ -10,7 +10,7 @@
 //!
 //! `light.wgsl` calls `go` at one place only, because compilers copy all that it calls to each place.
 
-use super::gpu_types;
+use super::imports::joined;
 use super::limits::{
     GROUPS_ACROSS, MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_METALS, MOST_ROUGHNESSES, MOST_UNIFORM,
     MOST_WAVELENGTHS,
@@ -74,60 +74,15 @@ impl Kernel {
     }
 }
 
-/// The search of triangles.
-const BVH: [&str; 3] =
-    [gpu_types::TRIANGLE_WGSL, gpu_types::BVH_NODE_WGSL, include_str!("../../../../shaders/bvh.wgsl")];
-
-/// The parts that metal under light needs in addition to [`BVH`].
-const METAL: [&str; 3] = [
-    include_str!("../../../../shaders/random.wgsl"),
-    include_str!("../../../../shaders/microfacets.wgsl"),
-    include_str!("../../../../shaders/metal.wgsl"),
-];
-
-/// Returns a shader's text, with its structs and constants in front. `has_metal` is true where metal stands beside
-/// the stones, which only pictures under light allow.
+/// Returns a shader's text, with its structs and constants. `has_metal` is true where metal stands beside the stones,
+/// which only pictures under light allow.
 pub(super) fn source(facets: ShaderSurface, reading: ShaderTask, has_metal: bool) -> String {
-    let constants = constants(has_metal || facets.count_turns());
-    let mut parts = vec![
-        gpu_types::FRAME_WGSL,
-        gpu_types::BODY_WGSL,
-        gpu_types::MEDIUM_WGSL,
-        &constants,
-        "@group(0) @binding(0) var<uniform> frame: Frame;\n\
-         @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
-         @group(0) @binding(5) var<storage, read> media: array<vec4f>;\n",
-        include_str!("../../../../shaders/optics.wgsl"),
-        include_str!("../../../../shaders/trace.wgsl"),
-        include_str!("../../../../shaders/pose.wgsl"),
-        include_str!("../../../../shaders/camera.wgsl"),
-        include_str!("../../../../shaders/tiles.wgsl"),
-    ];
-    parts.extend(surface(facets));
-    if has_metal || facets == ShaderSurface::Triangles {
-        parts.extend(BVH);
-    }
+    let mut parts = surface(facets).to_vec();
     match reading {
-        ShaderTask::Scope => parts.extend([
-            gpu_types::BANDS_WGSL,
-            gpu_types::SCOPE_PIXEL_WGSL,
-            include_str!("../../../../shaders/scope.wgsl"),
-        ]),
-        ShaderTask::Light => {
-            parts.extend([
-                gpu_types::ENVIRONMENT_WGSL,
-                gpu_types::LAMP_WGSL,
-                gpu_types::RESPONSE_WGSL,
-                gpu_types::RADIANCE_PIXEL_WGSL,
-                include_str!("../../../../shaders/environment.wgsl"),
-                include_str!("../../../../shaders/light.wgsl"),
-            ]);
-            let beside: &[&str] =
-                if has_metal { &METAL } else { &[include_str!("../../../../shaders/no_metal.wgsl")] };
-            parts.extend(beside);
-        }
+        ShaderTask::Scope => parts.push("scope"),
+        ShaderTask::Light => parts.extend(["light", if has_metal { "metal" } else { "no_metal" }]),
     }
-    parts.concat()
+    constants(has_metal || facets.count_turns()) + &joined(&parts)
 }
 
 /// Returns the constants of the shaders. `counts_turns` is true where rays count the turns of all their loops.
@@ -145,23 +100,14 @@ fn constants(counts_turns: bool) -> String {
     )
 }
 
-/// Returns the texts for a kind of surface, and for the light that leaves it.
-fn surface(facets: ShaderSurface) -> Vec<&'static str> {
-    let leaving = include_str!("../../../../shaders/leaving.wgsl");
-    let flat = include_str!("../../../../shaders/flat.wgsl");
-    let fields = include_str!("../../../../shaders/implicit.wgsl");
-    let jets = include_str!("../../../../shaders/jets.wgsl");
-    let convex = include_str!("../../../../shaders/convex.wgsl");
-    let branching = include_str!("../../../../shaders/branching.wgsl");
+/// Returns the files for a kind of surface, and for the light that leaves it.
+fn surface(facets: ShaderSurface) -> &'static [&'static str] {
     match facets {
-        ShaderSurface::Few => vec![leaving, include_str!("../../../../shaders/planes.wgsl"), flat, convex],
-        ShaderSurface::Many => {
-            let clusters = include_str!("../../../../shaders/clusters.wgsl");
-            vec![gpu_types::CLUSTER_WGSL, leaving, clusters, flat, convex]
-        }
-        ShaderSurface::Triangles => vec![include_str!("../../../../shaders/triangles.wgsl"), flat, branching],
-        ShaderSurface::Smooth => vec![gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, convex],
-        ShaderSurface::Wavy => vec![gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, branching],
+        ShaderSurface::Few => &["planes"],
+        ShaderSurface::Many => &["clusters"],
+        ShaderSurface::Triangles => &["triangles"],
+        ShaderSurface::Smooth => &["implicit", "convex"],
+        ShaderSurface::Wavy => &["implicit", "branching"],
     }
 }
 

@@ -3,7 +3,7 @@
 use super::clusters::clusters;
 use super::device::Gpu;
 use super::fields::field;
-use super::gpu_types::{Body, Cluster, with};
+use super::gpu_types::{Body, Cluster, three, with};
 use super::limits::{MOST_BODIES, MOST_UNIFORM};
 use super::metals::{GpuMetals, meshes};
 use super::shaders::ShaderSurface;
@@ -136,10 +136,7 @@ impl Surfaces {
             let (order, own) = clusters(stone);
             let (first, first_cluster) = (planes.len(), clustered.len());
             planes.extend(order.iter().map(|&k| with(stone[k as usize].normal, stone[k as usize].offset)));
-            let moved = |b: &Cluster| {
-                let [spread, depth, start, count] = b.spread;
-                Cluster { spread: [spread, depth, start + first as f32, count], ..*b }
-            };
+            let moved = |cluster: &Cluster| Cluster { first: cluster.first + first as u32, ..*cluster };
             clustered.extend(own.iter().map(moved));
             ranges.push([first, planes.len(), first_cluster, clustered.len()].map(|k| k as u32));
             largest = largest.max(stone.len() + own.len());
@@ -260,10 +257,12 @@ impl Solids {
 /// pose. The body is traced in a unit of `unit` units of its frame.
 pub(super) fn body((middle, radius): (DVec3, f64), range: [u32; 4], pose: &Pose, unit: f64) -> Body {
     Body {
-        middle: with(middle, radius),
+        middle: three(middle),
+        radius: radius as f32,
         range,
         turn: pose.turn.to_array().map(|x| x as f32),
-        place: with(pose.at, pose.scale * unit),
+        place: three(pose.at),
+        unit: (pose.scale * unit) as f32,
     }
 }
 

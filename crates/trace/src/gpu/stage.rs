@@ -1,7 +1,7 @@
 //! The pixels of a picture in a card's memory, and the dispatches that add to them.
 
 use super::device::{Gpu, GpuError};
-use super::gpu_types::{Frame, with};
+use super::gpu_types::{Frame, three};
 use super::limits::{GROUPS_ACROSS, MOST_BOUNCES};
 use super::pieces::{Piece, Pieces, stride};
 use super::shaders::Kernel;
@@ -39,18 +39,38 @@ impl GpuCamera<'_> {
             Projection::Perspective { distance } => distance,
         };
         let bounces = solids.bounces(gpu, self.options.most_bounces.min(MOST_BOUNCES));
-        let [across, down] = self.film.size;
         Frame {
-            right: with(basis.right, self.reach),
-            up: with(basis.up, self.film.pixel),
-            toward: with(basis.toward, distance),
-            limits: [self.options.least_weight as f32, 0.0, 0.5, 0.5],
-            counts: [solids.count() as u32, wavelengths as u32, bounces, u32::from(self.options.polarised)],
-            film: [across, down, 0, 0],
-            turn: [0, 1, 0, wavelengths as u32],
-            tiles: [0, 0, 1, 1],
-            most: [most_turns(gpu), 0, solids.metal_count() as u32, plane_sixteenths(gpu)],
-            sample: [1.0, 0.0, 0.0, 0.0],
+            most_turns: most_turns(gpu),
+            pass_number: 0,
+            metal_count: solids.metal_count() as u32,
+            plane_sixteenths: plane_sixteenths(gpu),
+            right: three(basis.right),
+            reach: self.reach as f32,
+            up: three(basis.up),
+            pixel: self.film.pixel as f32,
+            toward: three(basis.toward),
+            eye_distance: distance as f32,
+            least_weight: self.options.least_weight as f32,
+            by_chance: 0.0,
+            place: [0.5; 2],
+            stone_count: solids.count() as u32,
+            wavelength_count: wavelengths as u32,
+            most_bounces: bounces,
+            is_polarised: u32::from(self.options.polarised),
+            size: self.film.size,
+            first_row: 0,
+            row_count: 0,
+            cell: 0,
+            grid: 1,
+            first_wavelength: 0,
+            end_wavelength: wavelengths as u32,
+            first_tile: 0,
+            tile_count: 0,
+            tile_stride: 1,
+            all_tiles: 1,
+            stretch: [0.0; 2],
+            strength: 1.0,
+            unused: 0.0,
         }
     }
 }
@@ -101,7 +121,7 @@ impl<'a> Stage<'a> {
         let frame_buffer = gpu.buffer("frame", bytemuck::bytes_of(&frame), usage);
         let width = size_of::<T>() as u64;
         let empty = |label, usage| {
-            let size = u64::from(rows) * u64::from(frame.film[0]) * width;
+            let size = u64::from(rows) * u64::from(frame.size[0]) * width;
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
                 size,
@@ -127,7 +147,7 @@ impl<'a> Stage<'a> {
             Self { gpu, kernel, frame, cost, bands_at_once, frame_buffer, seen, back, bound, width, number };
         // A dispatch without tiles runs first, so that copied data arrive, and drivers that compile late do so,
         // before times are measured.
-        stage.submit(&Frame { tiles: [0, 0, 1, 1], ..frame }, 1)?;
+        stage.submit(&Frame { first_tile: 0, tile_count: 0, tile_stride: 1, all_tiles: 1, ..frame }, 1)?;
         Ok(stage)
     }
 
@@ -139,9 +159,11 @@ impl<'a> Stage<'a> {
         E: From<Stopped> + From<GpuError>,
     {
         let mut frame = self.frame;
-        let tiles = frame.film[0].div_ceil(TILE) * (strip.len() as u32).div_ceil(TILE);
-        (frame.film[2], frame.film[3]) = (strip.start, strip.len() as u32);
-        frame.limits[2..].copy_from_slice(&[layer.shift.x, layer.shift.y].map(|x| x as f32));
+        let tiles = frame.size[0].div_ceil(TILE) * (strip.len() as u32).div_ceil(TILE);
+        (frame.first_row, frame.row_count) = (strip.start, strip.len() as u32);
+        frame.place = layer.shift.as_vec2().to_array();
+        [frame.cell, frame.grid] = layer.cell;
+        (frame.tile_stride, frame.all_tiles) = (stride(tiles), tiles);
         let share = covered(&frame, strip, layer.origin);
         let cost = f64::from(TILE * TILE) * (BESIDE + share * self.cost);
         let all = f64::from(tiles) * f64::from(layer.bands);
@@ -154,8 +176,8 @@ impl<'a> Stage<'a> {
                 return Err(Stopped.into());
             }
             done += piece.size();
-            frame.turn = [layer.cell[0], layer.cell[1], piece.bands.start, piece.bands.end];
-            frame.tiles = [piece.tiles.start, piece.tiles.len() as u32, stride(tiles), tiles];
+            (frame.first_wavelength, frame.end_wavelength) = (piece.bands.start, piece.bands.end);
+            (frame.first_tile, frame.tile_count) = (piece.tiles.start, piece.tiles.len() as u32);
             self.dispatch(&frame, &piece, cost)?;
         }
     }
@@ -188,7 +210,7 @@ impl<'a> Stage<'a> {
 
     /// Reads the pixels of the first `count` rows back, and calls `each` with them.
     pub fn read<T: Pod, R>(&self, count: u32, each: impl FnOnce(&[T]) -> R) -> Result<R, GpuError> {
-        let bytes = u64::from(count) * u64::from(self.frame.film[0]) * self.width;
+        let bytes = u64::from(count) * u64::from(self.frame.size[0]) * self.width;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(&self.seen, 0, &self.back, 0, bytes);
         self.gpu.queue.submit([encoder.finish()]);
@@ -207,12 +229,12 @@ impl<'a> Stage<'a> {
 /// the film, in pixels.
 fn covered(frame: &Frame, strip: &Range<u32>, origin: DVec2) -> f64 {
     const LINES: u32 = 64;
-    let [across, down] = [frame.film[0], frame.film[1]].map(f64::from);
+    let [across, down] = frame.size.map(f64::from);
     let middle = DVec2::new(across, down) / 2.0 - origin;
-    let (reach, distance) = (f64::from(frame.right[3]), f64::from(frame.toward[3]));
+    let (reach, distance) = (f64::from(frame.reach), f64::from(frame.eye_distance));
     let nearness = if distance > 0.0 { (1.0 - (reach / distance).powi(2)).sqrt() } else { 1.0 };
     // For an eye inside the ball, the ball is everywhere; the root is then NaN.
-    let radius = reach / f64::from(frame.up[3]) / nearness;
+    let radius = reach / f64::from(frame.pixel) / nearness;
     if !radius.is_finite() {
         return 1.0;
     }
@@ -233,8 +255,8 @@ mod tests {
     /// A film of 100 x 200 pixels around a ball of this many pixels, seen from `distance` pixels away.
     fn frame(radius: f32, distance: f32) -> Frame {
         let mut frame = Frame::zeroed();
-        (frame.film[0], frame.film[1]) = (100, 200);
-        (frame.right[3], frame.up[3], frame.toward[3]) = (radius * 0.1, 0.1, distance * 0.1);
+        frame.size = [100, 200];
+        (frame.reach, frame.pixel, frame.eye_distance) = (radius * 0.1, 0.1, distance * 0.1);
         frame
     }
 

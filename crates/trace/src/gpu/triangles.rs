@@ -1,9 +1,10 @@
 //! Packs triangles and the boxes around them for the graphics card.
 
-use super::gpu_types::{BvhNode, Triangle, with};
+use super::gpu_types::{BvhNode, Triangle, three};
 use super::limits::{MOST_LEVELS, MOST_TRIANGLES};
 use crate::gpu::GpuError;
 use brillianteer_math::{Bvh, ShadedMesh, SolidRef, TriangleMesh};
+use glam::DVec3;
 use std::sync::Arc;
 
 /// The triangles of solids and of metal, the boxes around them, and the range of each body, as in [`super::gpu_types::Body`].
@@ -62,25 +63,29 @@ fn mesh_of(solid: &SolidRef) -> Result<Arc<TriangleMesh>, GpuError> {
 }
 
 fn triangle(mesh: &TriangleMesh, k: usize) -> Triangle {
-    let [a, b, c] = mesh.surface().triangles[k].map(|v| mesh.vertices()[v as usize]);
+    let corners = mesh.surface().triangles[k].map(|v| mesh.vertices()[v as usize]);
     let normal = mesh.planes()[mesh.facets()[k] as usize].normal;
-    Triangle { a: with(a, normal.x), b: with(b, normal.y), c: with(c, normal.z) }
+    packed(corners, normal)
 }
 
 fn shaded_triangle(mesh: &ShadedMesh, k: u32) -> Triangle {
-    let ([a, b, c], (flat, _)) = (mesh.surface().triangle(k as usize), mesh.corner_normals(k));
-    Triangle { a: with(a, flat.x), b: with(b, flat.y), c: with(c, flat.z) }
+    packed(mesh.surface().triangle(k as usize), mesh.corner_normals(k).0)
+}
+
+/// Packs three corners, and the normal of their facet.
+fn packed([a, b, c]: [DVec3; 3], normal: DVec3) -> Triangle {
+    let [normal_x, normal_y, normal_z] = three(normal);
+    Triangle { a: three(a), normal_x, b: three(b), normal_y, c: three(c), normal_z }
 }
 
 fn smooth_normals(mesh: &ShadedMesh, k: u32) -> Triangle {
-    let [a, b, c] = mesh.corner_normals(k).1.map(|normal| with(normal, 0.0));
-    Triangle { a, b, c }
+    packed(mesh.corner_normals(k).1, DVec3::ZERO)
 }
 
 fn node(node: &brillianteer_math::BvhNode, first_triangle: usize) -> BvhNode {
     let start = node.start as usize + if node.count > 0 { first_triangle } else { 0 };
     // A box's corners are rounded like the corners of its triangles, so that no triangle lies outside.
-    BvhNode { low: with(node.low, start as f64), high: with(node.high, f64::from(node.count)) }
+    BvhNode { low: three(node.low), start: start as u32, high: three(node.high), count: node.count }
 }
 
 #[cfg(test)]
@@ -101,8 +106,8 @@ mod tests {
         let roots = [0, meshes[0].bvh().nodes().len() as u32];
         assert_eq!(all.of_solids.iter().map(|range| range[0]).collect::<Vec<_>>(), roots);
         let mut next = 0;
-        for node in all.nodes.iter().filter(|n| n.high[3] > 0.0) {
-            let [first, count] = [node.low[3] as usize, node.high[3] as usize];
+        for node in all.nodes.iter().filter(|n| n.count > 0) {
+            let [first, count] = [node.start as usize, node.count as usize];
             assert_eq!(first, next);
             next += count;
             for corner in all.triangles[first..next].iter().flat_map(|t| [t.a, t.b, t.c]) {

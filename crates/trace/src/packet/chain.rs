@@ -2,18 +2,14 @@
 
 use super::entering::enter;
 use super::lanes::{Lanes, MOST_LANES, Vectors};
-use super::optics::{Incidence, LEAST_COS, PacketLight, Reflection, s_axis};
 use super::rays::{EnteringRay, InnerRay, InnerRays, PacketLoss, SingleRay, Travelled};
 use super::{PacketHit, PacketSurface};
-use crate::ray::RayOptions;
+use crate::DispersedRay;
+use crate::coherency::s_axis;
+use crate::dispersed_ray::{Arrival, Refraction};
+use crate::ray::{ChainEnd, RayOptions};
+use brillianteer_optics::{Vector, fresnel, transmittance};
 use pulp::{Simd, WithSimd};
-
-/// The greatest component of a fan or a shift. A larger fan would cover more than the whole sphere, and a larger
-/// shift more than the body, and each bounce may multiply them.
-const WIDEST_FAN: f32 = 1e4;
-
-/// The least random number of a ray. With a smaller one, the ray would be followed until no light is left.
-const LEAST_LUCK: f32 = 1e-9;
 
 /// The passage of rays through one body, from their entry until too little light is left.
 pub(super) struct Passage<'a, P> {
@@ -70,24 +66,22 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
 }
 
 impl<P: PacketSurface> Passage<'_, P> {
-    /// Sets the weight at which a ray ends. Light below the threshold is followed as far as one random number decides
-    /// (`ChainRoulette` in `trace/ray`).
+    /// Sets the weight at which a ray ends.
     #[inline(always)]
     fn draw(&self, ray: &mut InnerRay, luck: f32) {
-        if self.threshold > 0.0 {
-            ray.threshold = self.threshold.min(ray.ray.light.weight());
-            ray.least = luck.max(LEAST_LUCK) * ray.threshold;
+        ray.end = if self.threshold > 0.0 {
+            ChainEnd::by_chance(self.threshold, luck, ray.ray.light.weight())
         } else {
-            ray.least = self.options.least_weight as f32;
-        }
+            ChainEnd { threshold: 0.0, least: self.options.least_weight as f32 }
+        };
     }
 
     /// Returns the lane's occupant for a ray; `None` where the ray has too little light to be followed.
     #[inline(always)]
-    fn admitted(&mut self, InnerRay { ray, least, .. }: &InnerRay) -> Occupant {
+    fn admitted(&mut self, InnerRay { ray, end, .. }: &InnerRay) -> Occupant {
         let &SingleRay { light, travelled: Travelled { bounces, .. }, tag, .. } = ray;
         let weight = light.weight();
-        if weight > *least && bounces < self.options.most_bounces {
+        if weight > end.least && bounces < self.options.most_bounces {
             return Some((tag, bounces));
         }
         self.losses.push(PacketLoss { absorbed: 0.0, unresolved: weight, tag });
@@ -103,31 +97,26 @@ impl<P: PacketSurface> Passage<'_, P> {
         occupants: &[Occupant; MOST_LANES],
         absorbs: bool,
     ) {
-        let PacketHit { distance, normal } = self.surface.exit(simd, rays.origin, rays.direction);
-        let point = rays.origin + rays.direction * distance;
+        let PacketHit { distance, normal } = self.surface.exit(simd, rays.ray.origin, rays.ray.direction);
+        let point = rays.ray.origin + rays.ray.direction * distance;
         rays.path = rays.path + distance;
-        let cos_i = rays.direction.dot(normal);
-        rays.shift = along_surface(rays.shift + rays.fan * distance, rays.direction, normal);
-        let of_normal = P::IS_CURVED.then(|| -self.surface.turned(simd, point, rays.shift));
+        let cos_i = rays.ray.direction.dot(normal);
+        let shift = rays.ray.along_surface(distance, normal);
+        let of_normal = P::IS_CURVED.then(|| self.surface.turned(simd, point, shift));
+        let within = Arrival { point, normal, shift, of_normal }.turned_over();
         if absorbs {
             absorb(rays, factor);
         }
-        let surface = Reflection::of(cos_i, rays.index);
+        let surface = fresnel(cos_i, rays.index);
         if self.options.polarised {
-            turn_to_plane_of_incidence(rays, normal);
+            let s = s_axis(rays.ray.direction, normal, rays.s);
+            rays.light = rays.light.turned_to(s, rays.s, rays.ray.direction);
+            rays.s = s;
         }
-        let incidence = Incidence {
-            direction: rays.direction,
-            normal: -normal,
-            cos_i,
-            of_direction: rays.fan,
-            of_normal,
-        };
         let passed = rays.light.transmitted(&surface);
         let weight = passed.weight() * rays.left;
-        let outward = incidence.refracted(rays.index, surface.cos_t);
-        let fanned = incidence.refracted_change(rays.index, rays.spread, surface.cos_t);
-        let fanned = if P::IS_CURVED { tamed(fanned) } else { fanned };
+        let out = Refraction { eta: [rays.index, rays.spread], cosines: (cos_i, surface.cos_t) };
+        let outward = tamed::<S, P>(rays.ray.refracted(&within, &out, true));
         for (lane, occupant) in occupants[..S::F32_LANES].iter().enumerate() {
             if let Some((tag, bounces)) = *occupant
                 && weight.lane(lane) > 0.0
@@ -136,10 +125,10 @@ impl<P: PacketSurface> Passage<'_, P> {
                 let (left, path) = (rays.left.lane(lane), rays.path.lane(lane));
                 let counts = left * factor.lane(lane);
                 self.leaving.push(SingleRay {
-                    origin: point.lane(lane),
-                    direction: outward.lane(lane),
-                    fan: fanned.lane(lane),
-                    shift: rays.shift.lane(lane),
+                    origin: outward.origin.lane(lane),
+                    direction: outward.direction.lane(lane),
+                    fan: outward.fan.lane(lane),
+                    shift: outward.shift.lane(lane),
                     s: rays.s.lane(lane),
                     light: passed.lane(lane).times(counts),
                     travelled: Travelled { left, path, bounces: bounces + 1 },
@@ -149,12 +138,9 @@ impl<P: PacketSurface> Passage<'_, P> {
         }
         rays.light = rays.light.reflected(&surface);
         if !self.options.polarised {
-            rays.light = PacketLight::<Lanes<S>>::unpolarised(rays.light.weight());
+            rays.light = rays.light.unpolarised();
         }
-        let reflected_fan = incidence.reflected_change();
-        rays.fan = if P::IS_CURVED { tamed(reflected_fan) } else { reflected_fan };
-        rays.direction = incidence.reflected();
-        rays.origin = point;
+        rays.ray = tamed::<S, P>(rays.ray.reflected(&within, cos_i, true));
     }
 
     /// Counts the bounce, and empties the lanes of rays that end. `before` is the weighted light before the bounce,
@@ -167,7 +153,6 @@ impl<P: PacketSurface> Passage<'_, P> {
         before: [Lanes<S>; 2],
     ) {
         let weights = rays.weight();
-        let factors = rays.factor();
         for (lane, occupant) in occupants[..S::F32_LANES].iter_mut().enumerate() {
             let Some((tag, bounces)) = occupant else { continue };
             *bounces += 1;
@@ -175,16 +160,13 @@ impl<P: PacketSurface> Passage<'_, P> {
             // Rounding may let a ray slip out of the body at an edge. Such a ray has no place, and its remaining
             // light counts as unresolved.
             let has_slipped = !rays.path.lane(lane).is_finite() || !(weight + absorbed).is_finite();
-            let is_caught = weight <= rays.least.lane(lane);
-            if !has_slipped && !is_caught && *bounces < self.options.most_bounces {
+            let end = rays.end.lane(lane);
+            if !has_slipped && weight > end.least && *bounces < self.options.most_bounces {
                 continue;
             }
-            let [unresolved, absorbed] = if has_slipped {
-                before.map(|light| light.lane(lane))
-            } else if is_caught && rays.threshold.lane(lane) > 0.0 {
-                [0.0, absorbed]
-            } else {
-                [weight * factors.lane(lane), absorbed]
+            let [unresolved, absorbed] = match has_slipped {
+                true => before.map(|light| light.lane(lane)),
+                false => [end.unresolved(weight), absorbed],
             };
             self.losses.push(PacketLoss { absorbed, unresolved, tag: *tag });
             rays.set_lane(lane, &InnerRay::DARK);
@@ -193,52 +175,25 @@ impl<P: PacketSurface> Passage<'_, P> {
     }
 }
 
-/// Describes polarised light by its fields perpendicular and parallel to the plane of incidence at a facet with this
-/// normal.
+/// Limits the fans of rays where the surface is curved: only such a surface widens them without bounds.
 #[inline(always)]
-fn turn_to_plane_of_incidence<S: Simd>(rays: &mut InnerRays<S>, normal: Vectors<S>) {
-    let across = s_axis(rays.direction, normal, rays.s);
-    let sine = rays.direction.cross(rays.s).dot(across);
-    rays.light = rays.light.turned(rays.s.dot(across), sine);
-    rays.s = across;
+fn tamed<S: Simd, P: PacketSurface>(ray: DispersedRay<Vectors<S>>) -> DispersedRay<Vectors<S>> {
+    if P::IS_CURVED { DispersedRay { fan: ray.fan.tamed(), ..ray } } else { ray }
 }
 
 /// Removes the light that is absorbed on the way to the facet, and counts it times this factor.
 #[inline(always)]
 fn absorb<S: Simd>(rays: &mut InnerRays<S>, factor: Lanes<S>) {
-    let mut after = rays.left;
-    for lane in 0..S::F32_LANES {
-        let [o, e] = [rays.absorption[0].lane(lane), rays.absorption[1].lane(lane)];
-        let path = rays.path.lane(lane);
-        after.set_lane(lane, 0.5 * ((-o * path).exp() + (-e * path).exp()));
-    }
+    let after = transmittance(rays.absorption, rays.path);
     rays.absorbed = rays.absorbed + rays.light.weight() * (rays.left - after) * factor;
     rays.left = after;
-}
-
-/// Returns the displacements along the surface of the points where rays meet it, when the rays move by `by` there.
-#[inline(always)]
-pub(super) fn along_surface<S: Simd>(
-    by: Vectors<S>,
-    direction: Vectors<S>,
-    normal: Vectors<S>,
-) -> Vectors<S> {
-    let speed = direction.dot(normal);
-    let divisor = speed.abs().max(speed.all(LEAST_COS)).turned_as(speed);
-    tamed(by - direction * (normal.dot(by) / divisor))
-}
-
-/// Returns the vectors, scaled down so that no component exceeds `WIDEST_FAN`.
-#[inline(always)]
-fn tamed<S: Simd>(v: Vectors<S>) -> Vectors<S> {
-    let most = v[0].abs().max(v[1].abs()).max(v[2].abs()).max(v[0].all(1e-30));
-    v * (most.all(WIDEST_FAN) / most).min(most.all(1.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::rays::{PacketMedium, SingleHit};
     use super::*;
+    use crate::coherency::Coherency;
     use glam::Vec3;
     use pulp::Arch;
 
@@ -268,7 +223,7 @@ mod tests {
         for (polarised, absorption) in [(false, 0.0), (true, 0.0), (false, 0.7), (true, 0.7)] {
             let medium = PacketMedium { index: 1.5, spread: 0.0, absorption: [absorption; 2] };
             let down = SingleRay { direction: Vec3::NEG_Z, ..InnerRay::DARK.ray };
-            let ray = SingleRay { light: PacketLight::<f32>::unpolarised(1.0), ..down };
+            let ray = SingleRay { light: Coherency::of_weight(1.0), ..down };
             let met = SingleHit { distance: 1.0, normal: Vec3::Z };
             let rays = [EnteringRay { ray, met, medium, luck: 0.0 }; 3];
             let options = RayOptions { polarised, ..RayOptions::default() };

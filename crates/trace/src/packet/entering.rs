@@ -1,10 +1,12 @@
 //! The entry of light into a body: the glare of the surface, and the light that goes on inside.
 
 use super::PacketSurface;
-use super::chain::along_surface;
 use super::lanes::{Lanes, Vectors};
-use super::optics::{Incidence, PacketLight, Reflection, s_axis};
 use super::rays::{EnteringRay, InnerRay, SingleRay};
+use crate::DispersedRay;
+use crate::coherency::{Coherency, s_axis};
+use crate::dispersed_ray::{Arrival, Refraction};
+use brillianteer_optics::fresnel;
 use glam::Vec3;
 use pulp::Simd;
 
@@ -19,16 +21,16 @@ pub(super) fn enter<S: Simd, P: PacketSurface>(
 ) -> Vec<InnerRay> {
     let mut inner = Vec::with_capacity(rays.len());
     for chunk in rays.chunks(S::F32_LANES) {
-        let Split { point, shift, s, back, fanned_back, glare, inward, fanned, inside } =
+        let Split { s, back, glare, inward, inside } =
             Arrivals::of(simd, chunk).split(simd, surface, is_polarised);
         for (lane, EnteringRay { ray, medium, .. }) in chunk.iter().enumerate() {
-            let (point, shift, s) = (point.lane(lane), shift.lane(lane), s.lane(lane));
+            let (origin, shift, s) = (back.origin.lane(lane), back.shift.lane(lane), s.lane(lane));
             let light = glare.lane(lane);
-            let (direction, fan) = (back.lane(lane), fanned_back.lane(lane));
-            leaving.push(SingleRay { origin: point, direction, fan, shift, s, light, ..*ray });
+            let (direction, fan) = (back.direction.lane(lane), back.fan.lane(lane));
+            leaving.push(SingleRay { origin, direction, fan, shift, s, light, ..*ray });
             let light = inside.lane(lane);
-            let (direction, fan) = (inward.lane(lane), fanned.lane(lane));
-            let ray = SingleRay { origin: point, direction, fan, shift, s, light, ..*ray };
+            let (direction, fan) = (inward.direction.lane(lane), inward.fan.lane(lane));
+            let ray = SingleRay { origin, direction, fan, shift, s, light, ..*ray };
             inner.push(InnerRay { ray, medium: *medium, ..InnerRay::DARK });
         }
     }
@@ -37,12 +39,9 @@ pub(super) fn enter<S: Simd, P: PacketSurface>(
 
 /// Rays that meet a surface from outside, one in each lane.
 struct Arrivals<S: Simd> {
-    origin: Vectors<S>,
-    direction: Vectors<S>,
-    fan: Vectors<S>,
-    shift: Vectors<S>,
+    ray: DispersedRay<Vectors<S>>,
     s: Vectors<S>,
-    light: PacketLight<Lanes<S>>,
+    light: Coherency<Lanes<S>>,
     distance: Lanes<S>,
     normal: Vectors<S>,
     index: Lanes<S>,
@@ -51,15 +50,11 @@ struct Arrivals<S: Simd> {
 
 /// The two parts of the light of such rays: the glare, and the light that goes on inside.
 struct Split<S: Simd> {
-    point: Vectors<S>,
-    shift: Vectors<S>,
     s: Vectors<S>,
-    back: Vectors<S>,
-    fanned_back: Vectors<S>,
-    glare: PacketLight<Lanes<S>>,
-    inward: Vectors<S>,
-    fanned: Vectors<S>,
-    inside: PacketLight<Lanes<S>>,
+    back: DispersedRay<Vectors<S>>,
+    glare: Coherency<Lanes<S>>,
+    inward: DispersedRay<Vectors<S>>,
+    inside: Coherency<Lanes<S>>,
 }
 
 impl<S: Simd> Arrivals<S> {
@@ -69,22 +64,16 @@ impl<S: Simd> Arrivals<S> {
         let up = Vectors::splat(simd, Vec3::Z);
         let (zero, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
         let mut all = Self {
-            origin: none,
-            direction: -up,
-            fan: none,
-            shift: none,
+            ray: DispersedRay::along(-up, none),
             s: Vectors::splat(simd, Vec3::X),
-            light: PacketLight::dark(simd),
+            light: Coherency::dark(simd),
             distance: zero,
             normal: up,
             index: one,
             spread: zero,
         };
         for (lane, EnteringRay { ray, met, medium, .. }) in rays.iter().enumerate() {
-            all.origin.set_lane(lane, ray.origin);
-            all.direction.set_lane(lane, ray.direction);
-            all.fan.set_lane(lane, ray.fan);
-            all.shift.set_lane(lane, ray.shift);
+            all.ray.set_lane(lane, ray);
             all.s.set_lane(lane, ray.s);
             all.light.set_lane(lane, &ray.light);
             all.distance.set_lane(lane, met.distance);
@@ -97,34 +86,25 @@ impl<S: Simd> Arrivals<S> {
 
     #[inline(always)]
     fn split<P: PacketSurface>(self, simd: S, surface: &P, is_polarised: bool) -> Split<S> {
-        let Self { direction, normal, fan, .. } = self;
-        let point = self.origin + direction * self.distance;
-        let cos_i = -direction.dot(normal);
-        let shift = along_surface(self.shift + fan * self.distance, direction, normal);
+        let Self { ray, normal, .. } = self;
+        let point = ray.origin + ray.direction * self.distance;
+        let cos_i = -ray.direction.dot(normal);
+        let shift = ray.along_surface(self.distance, normal);
         let of_normal = P::IS_CURVED.then(|| surface.turned(simd, point, shift));
+        let arrival = Arrival { point, normal, shift, of_normal };
         let eta = Lanes::splat(simd, 1.0) / self.index;
-        let reflection = Reflection::of(cos_i, eta);
-        let s = s_axis(direction, normal, self.s);
+        let reflection = fresnel(cos_i, eta);
+        let s = s_axis(ray.direction, normal, self.s);
         let mut light = self.light;
         if is_polarised {
-            light = light.turned(self.s.dot(s), direction.cross(self.s).dot(s));
+            light = light.turned_to(s, self.s, ray.direction);
         }
         let (mut glare, mut inside) = (light.reflected(&reflection), light.transmitted(&reflection));
         if !is_polarised {
-            glare = PacketLight::<Lanes<S>>::unpolarised(glare.weight());
-            inside = PacketLight::<Lanes<S>>::unpolarised(inside.weight());
+            (glare, inside) = (glare.unpolarised(), inside.unpolarised());
         }
-        let incidence = Incidence { direction, normal, cos_i, of_direction: fan, of_normal };
-        Split {
-            point,
-            shift,
-            s,
-            back: incidence.reflected(),
-            fanned_back: incidence.reflected_change(),
-            glare,
-            inward: incidence.refracted(eta, reflection.cos_t),
-            fanned: incidence.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
-            inside,
-        }
+        let into = Refraction { eta: [eta, -(self.spread * eta * eta)], cosines: (cos_i, reflection.cos_t) };
+        let back = ray.reflected(&arrival, cos_i, true);
+        Split { s, back, glare, inward: ray.refracted(&arrival, &into, true), inside }
     }
 }

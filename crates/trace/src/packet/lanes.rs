@@ -3,12 +3,17 @@
 //! Every function is inlined into the code that is compiled for the processor's widest instructions; closures would
 //! not be. Products and sums are not fused, so that the result does not depend on the processor.
 
+use brillianteer_optics::{Real, Truth, Vector};
 use glam::Vec3;
 use pulp::{Simd, bytemuck};
 use std::ops::{Add, BitAnd, BitOr, Div, Index, Mul, Neg, Not, Sub};
 
 /// The most lanes that any processor has.
 pub(super) const MOST_LANES: usize = 16;
+
+/// The greatest component of a fan or a shift. A larger fan would cover more than the whole sphere, and a larger shift
+/// more than the body, and each bounce may multiply them.
+const WIDEST_FAN: f32 = 1e4;
 
 /// A number in each lane.
 #[derive(Clone, Copy)]
@@ -229,6 +234,118 @@ impl<S: Simd> Vectors<S> {
         self.0[0].set_lane(lane, value.x);
         self.0[1].set_lane(lane, value.y);
         self.0[2].set_lane(lane, value.z);
+    }
+}
+
+impl<S: Simd> Real for Lanes<S> {
+    type Truth = Mask<S>;
+
+    const LEAST_COS_T_SQUARED: f64 = f32::LEAST_COS_T_SQUARED;
+    const LEAST_COS: f64 = f32::LEAST_COS;
+    const SQUARE_ON: f64 = f32::SQUARE_ON;
+    const TINY: f64 = f32::TINY;
+
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        self.all(value as f32)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::max(self, other)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::min(self, other)
+    }
+
+    #[inline(always)]
+    fn clamped(self) -> Self {
+        Self::min(Self::max(self, self.all(0.0)), self.all(1.0))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        let mut powers = self;
+        for lane in 0..S::F32_LANES {
+            powers.set_lane(lane, self.lane(lane).exp());
+        }
+        powers
+    }
+
+    #[inline(always)]
+    fn turned_as(self, other: Self) -> Self {
+        Self::turned_as(self, other)
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> Mask<S> {
+        Self::less(self, other)
+    }
+
+    #[inline(always)]
+    fn over(self, divisor: Self) -> Self {
+        self * (self.all(1.0) / divisor)
+    }
+}
+
+impl<S: Simd> Truth<Lanes<S>> for Mask<S> {
+    #[inline(always)]
+    fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
+        Self::select(self, yes, no)
+    }
+
+    #[inline(always)]
+    fn of_single(self) -> Option<bool> {
+        None
+    }
+}
+
+impl<S: Simd> Vector for Vectors<S> {
+    type Real = Lanes<S>;
+
+    #[inline(always)]
+    fn dot(self, other: Self) -> Lanes<S> {
+        Self::dot(self, other)
+    }
+
+    #[inline(always)]
+    fn cross(self, other: Self) -> Self {
+        Self::cross(self, other)
+    }
+
+    #[inline(always)]
+    fn over(self, divisor: Lanes<S>) -> Self {
+        self * (divisor.all(1.0) / divisor)
+    }
+
+    #[inline(always)]
+    fn select(truth: Mask<S>, yes: Self, no: Self) -> Self {
+        truth.select_vectors(yes, no)
+    }
+
+    #[inline(always)]
+    fn straightened(self) -> Self {
+        // This is one Newton step toward unit length.
+        let square = self.dot(self);
+        self * (square.all(1.5) - square.all(0.5) * square)
+    }
+
+    #[inline(always)]
+    fn tamed(self) -> Self {
+        let most = self[0].abs().max(self[1].abs()).max(self[2].abs()).max(self[0].all(1e-30));
+        self * (most.all(WIDEST_FAN) / most).min(most.all(1.0))
     }
 }
 

@@ -1,7 +1,9 @@
 //! Rays outside and inside bodies, as single rays or one in each lane.
 
 use super::lanes::{Lanes, Vectors};
-use super::optics::PacketLight;
+use crate::DispersedRay;
+use crate::coherency::Coherency;
+use crate::ray::ChainEnd;
 use brillianteer_scene::Medium;
 use glam::Vec3;
 use pulp::Simd;
@@ -40,7 +42,7 @@ pub(super) struct SingleRay {
     /// The axis of s polarisation of the light.
     pub s: Vec3,
     /// The light that absorption has left.
-    pub light: PacketLight<f32>,
+    pub light: Coherency<f32>,
     pub travelled: Travelled,
     /// The number of the ray of the picture to which this ray belongs.
     pub tag: u32,
@@ -72,10 +74,7 @@ pub(super) struct EnteringRay {
 pub(super) struct InnerRay {
     pub ray: SingleRay,
     pub medium: PacketMedium,
-    /// The weight below which the light goes on only by chance; 0 where all of it is followed.
-    pub threshold: f32,
-    /// The weight at which the ray ends.
-    pub least: f32,
+    pub end: ChainEnd<f32>,
 }
 
 /// The part of a ray's light that did not leave the body.
@@ -89,13 +88,11 @@ pub(super) struct PacketLoss {
 /// Rays inside a body, one in each lane.
 #[derive(Clone, Copy)]
 pub(super) struct InnerRays<S: Simd> {
-    pub origin: Vectors<S>,
-    pub direction: Vectors<S>,
-    pub fan: Vectors<S>,
-    pub shift: Vectors<S>,
+    pub ray: DispersedRay<Vectors<S>>,
+    /// The axis of s polarisation of the light.
     pub s: Vectors<S>,
     /// The light before the loss by absorption.
-    pub light: PacketLight<Lanes<S>>,
+    pub light: Coherency<Lanes<S>>,
     pub index: Lanes<S>,
     pub spread: Lanes<S>,
     pub absorption: [Lanes<S>; 2],
@@ -105,29 +102,39 @@ pub(super) struct InnerRays<S: Simd> {
     pub path: Lanes<S>,
     /// The light that the body has absorbed.
     pub absorbed: Lanes<S>,
-    /// The weight below which the light goes on only by chance; 0 where all of it is followed.
-    pub threshold: Lanes<S>,
-    /// The weight at which each ray ends.
-    pub least: Lanes<S>,
+    pub end: ChainEnd<Lanes<S>>,
 }
 
-impl PacketLight<f32> {
-    /// Returns unpolarised light of this weight.
-    pub fn unpolarised(weight: f32) -> Self {
-        Self { ss: 0.5 * weight, pp: 0.5 * weight, re: 0.0, im: 0.0 }
+impl<S: Simd> DispersedRay<Vectors<S>> {
+    /// Returns a ray along this direction in every lane, from the origin.
+    #[inline(always)]
+    pub(super) fn along(direction: Vectors<S>, none: Vectors<S>) -> Self {
+        Self { origin: none, direction, fan: none, shift: none }
     }
 
-    pub fn weight(&self) -> f32 {
-        self.ss + self.pp
-    }
-
-    /// Returns this share of the light.
-    pub fn times(&self, share: f32) -> Self {
-        Self { ss: self.ss * share, pp: self.pp * share, re: self.re * share, im: self.im * share }
+    #[inline(always)]
+    pub(super) fn set_lane(&mut self, lane: usize, ray: &SingleRay) {
+        self.origin.set_lane(lane, ray.origin);
+        self.direction.set_lane(lane, ray.direction);
+        self.fan.set_lane(lane, ray.fan);
+        self.shift.set_lane(lane, ray.shift);
     }
 }
 
-impl<S: Simd> PacketLight<Lanes<S>> {
+impl<S: Simd> ChainEnd<Lanes<S>> {
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> ChainEnd<f32> {
+        ChainEnd { threshold: self.threshold.lane(lane), least: self.least.lane(lane) }
+    }
+
+    #[inline(always)]
+    pub fn set_lane(&mut self, lane: usize, end: ChainEnd<f32>) {
+        self.threshold.set_lane(lane, end.threshold);
+        self.least.set_lane(lane, end.least);
+    }
+}
+
+impl<S: Simd> Coherency<Lanes<S>> {
     #[inline(always)]
     pub fn dark(simd: S) -> Self {
         let none = Lanes::splat(simd, 0.0);
@@ -135,8 +142,8 @@ impl<S: Simd> PacketLight<Lanes<S>> {
     }
 
     #[inline(always)]
-    pub fn lane(&self, lane: usize) -> PacketLight<f32> {
-        PacketLight {
+    pub fn lane(&self, lane: usize) -> Coherency<f32> {
+        Coherency {
             ss: self.ss.lane(lane),
             pp: self.pp.lane(lane),
             re: self.re.lane(lane),
@@ -145,7 +152,7 @@ impl<S: Simd> PacketLight<Lanes<S>> {
     }
 
     #[inline(always)]
-    pub fn set_lane(&mut self, lane: usize, light: &PacketLight<f32>) {
+    pub fn set_lane(&mut self, lane: usize, light: &Coherency<f32>) {
         self.ss.set_lane(lane, light.ss);
         self.pp.set_lane(lane, light.pp);
         self.re.set_lane(lane, light.re);
@@ -181,13 +188,12 @@ impl InnerRay {
             fan: Vec3::ZERO,
             shift: Vec3::ZERO,
             s: Vec3::X,
-            light: PacketLight { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
+            light: Coherency { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
             travelled: Travelled::NONE,
             tag: 0,
         },
         medium: PacketMedium { index: 1.0, spread: 0.0, absorption: [0.0; 2] },
-        threshold: 0.0,
-        least: 0.0,
+        end: ChainEnd { threshold: 0.0, least: 0.0 },
     };
 }
 
@@ -198,20 +204,16 @@ impl<S: Simd> InnerRays<S> {
         let zero = Lanes::splat(simd, 0.0);
         let none = Vectors::splat(simd, Vec3::ZERO);
         let mut lanes = Self {
-            origin: none,
-            direction: none,
-            fan: none,
-            shift: none,
+            ray: DispersedRay::along(none, none),
             s: none,
-            light: PacketLight::dark(simd),
+            light: Coherency::dark(simd),
             index: zero,
             spread: zero,
             absorption: [zero; 2],
             left: zero,
             path: zero,
             absorbed: zero,
-            threshold: zero,
-            least: zero,
+            end: ChainEnd { threshold: zero, least: zero },
         };
         for lane in 0..S::F32_LANES {
             lanes.set_lane(lane, &InnerRay::DARK);
@@ -221,12 +223,9 @@ impl<S: Simd> InnerRays<S> {
 
     /// Puts a ray that has just entered into a lane.
     #[inline(always)]
-    pub fn set_lane(&mut self, lane: usize, &InnerRay { ref ray, medium, threshold, least }: &InnerRay) {
+    pub fn set_lane(&mut self, lane: usize, &InnerRay { ref ray, medium, end }: &InnerRay) {
         let Travelled { left, path, .. } = ray.travelled;
-        self.origin.set_lane(lane, ray.origin);
-        self.direction.set_lane(lane, ray.direction);
-        self.fan.set_lane(lane, ray.fan);
-        self.shift.set_lane(lane, ray.shift);
+        self.ray.set_lane(lane, ray);
         self.s.set_lane(lane, ray.s);
         // Light of which absorption has left almost nothing is not followed, unless the least weight is 0.
         self.light.set_lane(lane, &ray.light.times(1.0 / left.max(f32::MIN_POSITIVE)));
@@ -237,8 +236,7 @@ impl<S: Simd> InnerRays<S> {
         self.left.set_lane(lane, left);
         self.path.set_lane(lane, path);
         self.absorbed.set_lane(lane, 0.0);
-        self.threshold.set_lane(lane, threshold);
-        self.least.set_lane(lane, least);
+        self.end.set_lane(lane, end);
     }
 
     #[inline(always)]
@@ -246,11 +244,9 @@ impl<S: Simd> InnerRays<S> {
         self.light.weight() * self.left
     }
 
-    /// Returns the factor by which light counts that has come so far. Below the threshold it exceeds 1, because only
-    /// a part of such rays has come so far.
+    /// Returns the factor by which light counts that has come so far; see [`ChainEnd::factor`].
     #[inline(always)]
     pub fn factor(&self) -> Lanes<S> {
-        let one = self.left.all(1.0);
-        (self.threshold / self.weight().max(self.left.all(f32::MIN_POSITIVE))).max(one)
+        self.end.factor(self.weight())
     }
 }

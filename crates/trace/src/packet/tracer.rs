@@ -1,10 +1,10 @@
 //! Computes the light that pixels receive from a scene, by packets of rays.
 
 use super::environment::{LookUp, LookUpRay, PacketEnvironment, StraightRay};
-use super::optics::PacketLight;
 use super::outside::PacketInstance;
 use super::rays::{EnteringRay, PacketMedium, SingleHit, SingleRay, Travelled};
 use crate::DispersedRay;
+use crate::coherency::Coherency;
 use crate::ray::RayOptions;
 use crate::sampling::{LitScene, RadiancePixel, SamplePass, colour};
 use glam::DVec4;
@@ -318,7 +318,7 @@ fn eye_ray(EyeRay { ray, .. }: &EyeRay, tag: u32) -> SingleRay {
         fan: ray.fan.as_vec3(),
         shift: ray.shift.as_vec3(),
         s: direction.any_orthonormal_vector(),
-        light: PacketLight::<f32>::unpolarised(1.0),
+        light: Coherency::of_weight(1.0),
         travelled: Travelled::NONE,
         tag,
     }

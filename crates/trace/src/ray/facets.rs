@@ -14,6 +14,9 @@ use std::sync::Arc;
 
 /// A search for the facets of a solid that rays meet.
 pub(super) trait FacetSearch {
+    /// True where the normals change along the surface.
+    const IS_CURVED: bool = false;
+
     /// Returns the unit outward normal at a point of a facet.
     fn normal(&self, facet: usize, point: DVec3) -> DVec3;
 
@@ -230,6 +233,8 @@ impl FacetSearch for TriangleFacets {
 macro_rules! smooth {
     ($kind:ident) => {
         impl FacetSearch for $kind {
+            const IS_CURVED: bool = true;
+
             #[inline]
             fn normal(&self, _: usize, point: DVec3) -> DVec3 {
                 self.0.normal(point)

@@ -1,7 +1,7 @@
 //! Follows rays through one stone at its place in the world. Rays are carried into the frame of the stone's body, and
 //! the light that leaves is carried back.
 
-use super::{Exit, Loss, MeetingRay, RayOptions, StoneTracer};
+use super::{Exit, Loss, MeetingRay, PathLight, RayOptions, StoneTracer};
 use crate::DispersedRay;
 use brillianteer_math::{Ball, Pose};
 use brillianteer_scene::{Instance, Medium};
@@ -79,11 +79,36 @@ impl InstanceTracer {
         is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
     ) -> Option<Loss> {
+        self.follow_light(ray, is_taken, |exit, _| leave(exit))
+    }
+
+    /// Follows a ray as [`follow_from`](Self::follow_from) does. The second argument of `leave` computes the light of the
+    /// exit, where it is needed; see [`StoneTracer::leaving_light`].
+    pub(super) fn follow_light(
+        &self,
+        ray: &MeetingRay,
+        is_taken: impl Fn(&Exit, f64) -> bool,
+        mut leave: impl FnMut(Exit, &dyn Fn() -> Option<PathLight>),
+    ) -> Option<Loss> {
         let (facet, distance) = ray.met;
         let own = self.own(&ray.ray);
-        let ray = MeetingRay { met: (facet, distance / self.unit()), ray: own, ..*ray };
+        let light = ray.light.map(|light| light.carried(|v| self.own_vector(v)));
+        let ray = MeetingRay { met: (facet, distance / self.unit()), ray: own, light, ..*ray };
         let is_taken = |exit: &Exit, distance: f64| is_taken(&self.outward(*exit), distance * self.unit());
-        self.tracer.follow_from(&ray, is_taken, |exit| leave(self.outward(exit)))
+        self.tracer.follow_light(&ray, &is_taken, &mut |exit, event| {
+            let light = || Some(self.tracer.leaving_light(event, &exit)?.carried(|v| self.world_vector(v)));
+            leave(self.outward(exit), &light);
+        })
+    }
+
+    /// Rotates a vector of the world into the frame of the body.
+    fn own_vector(&self, v: DVec3) -> DVec3 {
+        self.pose.map_or(v, |pose| pose.turn.inverse() * v)
+    }
+
+    /// Rotates a vector of the body's frame into the world.
+    fn world_vector(&self, v: DVec3) -> DVec3 {
+        self.pose.map_or(v, |pose| pose.turn * v)
     }
 
     /// Returns the length in the world of the unit of the body's frame.

@@ -1,19 +1,19 @@
 //! The light of a ray, and how a surface splits it.
 
-use brillianteer_optics::{fresnel, reflectance};
+use brillianteer_optics::{Real, fresnel, reflectance};
 use glam::DVec3;
 use num_complex::Complex64;
 
 /// The light of a ray between two facets: a weight, or the two fields into which the eye's two polarisations have
 /// turned.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PathLight {
     Unpolarised(f64),
     Fields(ElectricFields),
 }
 
 /// Two complex electric fields, each given by its components along two axes: s, and p = s × the ray's direction.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ElectricFields {
     /// A unit vector perpendicular to the ray.
     s: DVec3,
@@ -82,11 +82,21 @@ impl PathLight {
             }
         }
     }
-}
 
-/// The sine of the angle between a ray and a facet's normal below which the ray counts as perpendicular to the facet,
-/// because the cross product there is mostly rounding.
-const SQUARE_ON: f64 = 1e-9;
+    /// Returns light of the same polarisation at this weight. Light without weight stays as it is.
+    pub fn scaled_to(&self, weight: f64) -> Self {
+        let own = self.weight();
+        if own > 0.0 && own != weight { self.scaled(weight / own) } else { *self }
+    }
+
+    /// Returns the light in another frame, into which `carry` rotates vectors.
+    pub fn carried(&self, carry: impl Fn(DVec3) -> DVec3) -> Self {
+        match self {
+            Self::Unpolarised(weight) => Self::Unpolarised(*weight),
+            Self::Fields(fields) => Self::Fields(ElectricFields { s: carry(fields.s), ..*fields }),
+        }
+    }
+}
 
 impl ElectricFields {
     /// Returns the same fields with an axis s that is also perpendicular to a facet's normal.
@@ -94,7 +104,7 @@ impl ElectricFields {
     fn turned(&self, ray: DVec3, normal: DVec3) -> Self {
         let across = ray.cross(normal);
         let length = across.length();
-        if length <= SQUARE_ON {
+        if length <= f64::SQUARE_ON {
             return *self;
         }
         let s = across / length;

@@ -4,6 +4,7 @@
 use super::light::PathLight;
 use super::loss::Loss;
 use brillianteer_math::random_bits::{mixed, unit};
+use brillianteer_optics::Real;
 
 /// The least random number of a chain. With a smaller one, the chain would be followed until no light is left.
 const LEAST_LUCK: f64 = 1e-9;
@@ -32,13 +33,48 @@ pub struct Roulette {
     drawn: usize,
 }
 
-/// The roulette of one chain of bounces. Light below the threshold is followed only as far as one random number
-/// decides, and light that leaves along the way counts for more.
+/// The end of a chain of bounces, in any number type. Light below the threshold is followed only as far as one random
+/// number decides, and light that leaves along the way counts for more.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ChainEnd<N> {
+    /// The weight below which light goes on only by chance; 0 where all of it is followed.
+    pub threshold: N,
+    /// The weight at which the chain ends.
+    pub least: N,
+}
+
+impl<N: Real> ChainEnd<N> {
+    /// Returns the end of a chain that begins with this weight. `luck` is a random number from 0 to below 1.
+    #[inline(always)]
+    pub fn by_chance(threshold: N, luck: N, weight: N) -> Self {
+        let threshold = threshold.min(weight);
+        Self { threshold, least: luck.max(luck.constant(LEAST_LUCK)) * threshold }
+    }
+
+    /// Returns the factor by which light counts that has come so far with this weight: the inverse of the probability
+    /// that a chain comes so far.
+    #[inline(always)]
+    pub fn factor(&self, weight: N) -> N {
+        (self.threshold / weight.max(weight.constant(N::TINY))).max(weight.constant(1.0))
+    }
+}
+
+impl<N: Real<Truth = bool>> ChainEnd<N> {
+    /// Returns the weight that is unresolved where a chain has ended with this weight, which is 0 where chance has ended
+    /// it.
+    #[inline(always)]
+    pub fn unresolved(&self, weight: N) -> N {
+        let zero = weight.constant(0.0);
+        let is_caught = zero.less(self.threshold) && !self.least.less(weight);
+        if is_caught { zero } else { weight * self.factor(weight) }
+    }
+}
+
+/// The roulette of one chain of bounces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChainRoulette {
-    threshold: f64,
     /// The weight at which the chain ends.
-    pub least: f64,
+    pub end: ChainEnd<f64>,
     /// The weight of the light on the way to the next facet.
     before: f64,
     /// The share of that light that had not been absorbed at the last facet.
@@ -67,8 +103,7 @@ impl PassageRoulette {
     pub fn without_chance(least: f64, light: &PathLight, left: f64) -> Self {
         Self {
             chain: ChainRoulette {
-                threshold: 0.0,
-                least,
+                end: ChainEnd { threshold: 0.0, least },
                 before: light.weight() * left,
                 left,
                 absorbed: 0.0,
@@ -125,16 +160,14 @@ impl ChainRoulette {
     /// `luck` is a random number from 0 to below 1.
     pub fn new(threshold: f64, luck: f64, light: &PathLight, left: f64) -> Self {
         let before = light.weight() * left;
-        let threshold = threshold.min(before);
-        Self { threshold, least: luck.max(LEAST_LUCK) * threshold, before, left, absorbed: 0.0 }
+        Self { end: ChainEnd::by_chance(threshold, luck, before), before, left, absorbed: 0.0 }
     }
 
     /// Records a facet, and returns the factor by which light that leaves there counts. `light` arrives at the facet,
     /// absorption has left the share `left` of it, and the weight `onward` goes on.
     #[inline]
     pub fn meet(&mut self, light: &PathLight, left: f64, onward: f64) -> f64 {
-        // The chain reaches this facet with a probability of before / threshold.
-        let factor = self.factor();
+        let factor = self.end.factor(self.before);
         if left < self.left {
             self.absorbed += light.weight() * (self.left - left) * factor;
             self.left = left;
@@ -143,16 +176,9 @@ impl ChainRoulette {
         factor
     }
 
-    fn factor(&self) -> f64 {
-        (self.threshold / self.before).max(1.0)
-    }
-
-    /// Returns the loss of a chain that has ended after this many bounces. Nothing is unresolved where chance has
-    /// ended the chain.
+    /// Returns the loss of a chain that has ended after this many bounces.
     pub fn loss(&self, bounces: u32) -> Loss {
-        let is_caught = self.threshold > 0.0 && self.before <= self.least;
-        let unresolved = if is_caught { 0.0 } else { self.before * self.factor() };
-        Loss { absorbed: self.absorbed, unresolved, bounces }
+        Loss { absorbed: self.absorbed, unresolved: self.end.unresolved(self.before), bounces }
     }
 }
 

@@ -4,7 +4,7 @@ use super::lobe_luck::LobeLuck;
 use super::metal_tracer::{MetalHit, MetalTracer, nearest_metal, wider};
 use super::roulette::Sieve;
 use super::sight::{Met, nearest};
-use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, Roulette};
+use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, PathLight, Roulette};
 use crate::DispersedRay;
 use crate::packet::{EyeRay, PacketTracer};
 use crate::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass, colour};
@@ -41,6 +41,9 @@ pub struct WaitingRay {
     /// The side, in radians, of the square of directions that the ray represents, because all rough metal and all
     /// frosted facets on its way spread light; 0 for one direction.
     pub spread: f64,
+    /// The polarisation of light that has left a stone and meets another one, at this weight; `None` where the light is
+    /// not polarised. Metal is taken to leave light unpolarised.
+    light: Option<PathLight>,
     left: LeftBody,
     /// The number of bounces inside stones so far.
     bounces: u32,
@@ -77,6 +80,7 @@ impl WaitingRay {
             weight: 1.0,
             roulette: None,
             spread: 0.0,
+            light: None,
             left: LeftBody::Eye,
             bounces: 0,
             reflections: 0,
@@ -172,7 +176,7 @@ impl SceneTracer {
         let (mut unseen, mut number, before) = (0.0, 0, ray.bounces);
         let mut sieve = ray.roulette.map(|roulette| roulette.sieve());
         let is_frosted = self.tracers[stone].is_frosted();
-        let exits = |exit: Exit| {
+        let exits = |exit: Exit, light: &dyn Fn() -> Option<PathLight>| {
             let Exit { point: origin, direction, fan, shift, weight, spread, .. } = exit;
             number += 1;
             let ray = WaitingRay {
@@ -180,20 +184,21 @@ impl SceneTracer {
                 weight,
                 roulette: ray.roulette.map(|roulette| roulette.beyond(number)),
                 spread: wider(spread, ray.spread),
+                light: None,
                 left: LeftBody::Stone(stone),
                 bounces: before + exit.bounce,
                 reflections: ray.reflections,
                 luck: if is_frosted { ray.luck.beyond(number).later() } else { ray.luck.beyond(number) },
             };
             match self.first_body(&ray) {
-                Some(first) => unseen += self.wait(ray, first, sieve.as_mut(), waiting),
+                Some(first) => unseen += self.wait((ray, light), first, sieve.as_mut(), waiting),
                 None => leave(&ray),
             }
         };
-        let &WaitingRay { ray: own, weight, roulette, luck, .. } = ray;
-        let meeting = MeetingRay { met, ray: own, weight, roulette, luck: Some(luck) };
+        let &WaitingRay { ray: own, weight, roulette, light, luck, .. } = ray;
+        let meeting = MeetingRay { met, ray: own, weight, roulette, light, luck: Some(luck) };
         let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
-        let rest = self.tracers[stone].follow_from(&meeting, is_taken, exits).unwrap_or_default();
+        let rest = self.tracers[stone].follow_light(&meeting, is_taken, exits).unwrap_or_default();
         Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
     }
 
@@ -218,6 +223,7 @@ impl SceneTracer {
             weight: ray.weight * found.weight,
             roulette: ray.roulette.map(|roulette| roulette.beyond(1)),
             spread: wider(found.spread, ray.spread),
+            light: None,
             left: LeftBody::Metal(hit.metal, hit.triangle),
             bounces: ray.bounces,
             reflections: ray.reflections + 1,
@@ -229,14 +235,14 @@ impl SceneTracer {
             return lost(absorbed, 0.0);
         };
         let mut sieve = ray.roulette.map(|roulette| roulette.sieve());
-        lost(absorbed, self.wait(next, first, sieve.as_mut(), waiting))
+        lost(absorbed, self.wait((next, &|| None), first, sieve.as_mut(), waiting))
     }
 
-    /// Adds light that meets another body to `waiting`, weak light only by chance where there is a roulette. Returns
-    /// the weight of the light that is not followed.
+    /// Adds light that meets another body to `waiting`, weak light only by chance where there is a roulette; the
+    /// function beside the ray computes the light's polarisation. Returns the weight of the light that is not followed.
     fn wait(
         &self,
-        mut ray: WaitingRay,
+        (mut ray, light): (WaitingRay, &dyn Fn() -> Option<PathLight>),
         first: FirstBody,
         sieve: Option<&mut Sieve>,
         waiting: &mut Vec<(WaitingRay, FirstBody)>,
@@ -252,6 +258,9 @@ impl SceneTracer {
         }
         if !has_room {
             return ray.weight;
+        }
+        if matches!(first, FirstBody::Stone(_)) {
+            ray.light = light().map(|light| light.scaled_to(ray.weight));
         }
         waiting.push((ray, first));
         0.0
@@ -441,5 +450,7 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
 mod frosted_tests;
 #[cfg(test)]
 mod metal_tests;
+#[cfg(test)]
+mod polarised_tests;
 #[cfg(test)]
 mod tests;

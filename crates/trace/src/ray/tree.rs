@@ -50,7 +50,7 @@ impl StoneTracer {
         start: Inbound,
         mut roulette: Option<Roulette>,
         is_taken: &dyn Fn(&Exit, f64) -> bool,
-        leave: &mut dyn FnMut(Exit),
+        leave: &mut dyn FnMut(Exit, &SurfaceEvent),
     ) -> Option<Loss> {
         let mut rest = Loss::default();
         let mut waiting: Vec<Inbound> = vec![];
@@ -60,14 +60,16 @@ impl StoneTracer {
                 Some(roulette) => roulette.passage(&next.light, next.left),
                 None => PassageRoulette::without_chance(self.options.least_weight, &next.light, next.left),
             };
-            let passed = self.passage(facets, next, chances.chain.least, |meeting| {
+            let passed = self.passage(facets, next, chances.chain.end.least, |meeting| {
                 let factor = chances.chain.meet(meeting.light, meeting.left, meeting.onward);
                 let Some(mut exit) = meeting.exit() else { return };
                 let own = exit.weight;
                 let Some(weight) = chances.exits.pass(own * factor) else { return };
                 exit.weight = weight;
                 let met = facets.again(exit.facet as usize, exit.point, exit.direction);
-                let Some(met) = met.filter(|met| !is_taken(&exit, met.1)) else { return leave(exit) };
+                let Some(met) = met.filter(|met| !is_taken(&exit, met.1)) else {
+                    return leave(exit, &meeting);
+                };
                 if roulette.is_some() || weight > self.options.least_weight {
                     waiting.extend(self.inbound(&meeting, &exit, met, weight / own));
                 } else {

@@ -1,12 +1,11 @@
 //! One landing of a beam, and the derivatives by its quantities before it, from those after it.
 
-use super::super::coherency::Coherency;
-use super::super::follow::{SQUARE_ON, s_axis};
 use super::super::grow::entry_points;
 use super::super::split::Ray;
 use super::super::tree::Beams;
+use crate::coherency::{Coherency, s_axis};
 use brillianteer_math::{Affine, Moments, Plane};
-use brillianteer_optics::{Fresnel, fresnel, reflect, refract};
+use brillianteer_optics::{Fresnel, Real, fresnel, reflect, refract};
 use glam::{DVec2, DVec3};
 
 /// The light that goes on from a facet, without its outline.
@@ -76,7 +75,7 @@ impl FresnelChange {
         let surface = fresnel(cos_i, eta);
         let sin_sq = 1.0 - cos_i * cos_i;
         let [of_squared_i, of_squared_eta] = [eta * eta * cos_i, -eta * sin_sq];
-        if let Some(cos_t) = surface.cos_t {
+        if let Some(cos_t) = surface.cos_t() {
             let of_cos_t = [of_squared_i / cos_t, of_squared_eta / cos_t];
             // r = (a - b) / (a + b)
             let change =
@@ -123,7 +122,7 @@ fn pull_back_s_axis(
     (per_direction, per_normal): (&mut DVec3, &mut DVec3),
 ) -> bool {
     let length = direction.cross(normal).length();
-    if length <= SQUARE_ON {
+    if length <= f64::SQUARE_ON {
         return false;
     }
     let per_cross = (per_s - s * s.dot(per_s)) / length;
@@ -141,7 +140,7 @@ impl BeamState {
         let surface = fresnel(cos_i, eta);
         let (light, _) = Coherency::entered(&surface);
         let light = if beams.polarised { light } else { light.unpolarised() };
-        let direction = refract(-view.toward, plane.normal, eta, (cos_i, surface.cos_t.unwrap_or(0.0)));
+        let direction = refract(-view.toward, plane.normal, eta, (cos_i, surface.cos_t));
         let s = s_axis(direction, plane.normal, view.right);
         Self { origin: entry_points(view, plane), direction, light, s }
     }
@@ -160,7 +159,7 @@ impl BeamState {
         let cos_i = n.dot(toward);
         let eta = 1.0 / beams.medium.index;
         let change = FresnelChange::new(cos_i, eta);
-        let cos_t = change.surface.cos_t.unwrap_or(0.0);
+        let cos_t = change.surface.cos_t;
         let (mut per_n, mut per_cos, mut per_eta) = (DVec3::ZERO, 0.0, 0.0);
         let per_o = toward.dot(after.origin[0]);
         let per_offset = per_o / cos_i;
@@ -251,7 +250,7 @@ impl<'a> LandingStep<'a> {
         let (d, n, index) = (self.before.direction, self.plane.normal, self.beams.medium.index);
         let change = FresnelChange::new(self.cos_i, index);
         let mut per_cos = 0.0;
-        if let Some(cos_t) = change.surface.cos_t {
+        if let Some(cos_t) = change.surface.cos_t() {
             let per_normal_part = -n.dot(per_exit);
             back.before.direction += per_exit * index;
             back.normal -= per_exit * (index * self.cos_i - cos_t);

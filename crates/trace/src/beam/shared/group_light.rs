@@ -1,8 +1,7 @@
 //! The weight and polarisation of light that a group of wavelengths shares.
 
 use super::slanted_light::{Slant, SlantedLight};
-use crate::beam::coherency::Coherency;
-use crate::beam::follow::s_axis;
+use crate::coherency::{Coherency, s_axis};
 use brillianteer_optics::fresnel;
 use glam::DVec3;
 
@@ -45,7 +44,7 @@ impl EndLight {
     fn landed(&self, light: &SlantedLight, normal: DVec3, is_polarised: bool) -> (Coherency, Self) {
         let direction = light.direction(&self.slant);
         let s = s_axis(direction, normal, self.s);
-        let arriving = self.coherency.turned(self.s.dot(s), direction.cross(self.s).dot(s));
+        let arriving = self.coherency.turned_to(s, self.s, direction);
         let (reflected, _) = arriving.split(&fresnel(direction.dot(normal), self.slant.index));
         let coherency = if is_polarised { reflected } else { reflected.unpolarised() };
         (arriving, Self { slant: self.slant, coherency, s })

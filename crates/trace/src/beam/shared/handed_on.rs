@@ -4,8 +4,8 @@
 use super::group_light::ArrivingLight;
 use super::moving::MovingCorner;
 use super::slanted_light::{EntryFacet, Slant, SlantedLight};
-use crate::beam::coherency::Coherency;
 use crate::beam::follow::attenuated;
+use crate::coherency::Coherency;
 use brillianteer_math::Affine;
 use brillianteer_optics::fresnel;
 use brillianteer_scene::Medium;
@@ -134,7 +134,7 @@ impl Inside {
         let ray = self.light.direction(&slant);
         let surface = fresnel(ray.dot(self.normal), medium.index);
         let (direction, change) =
-            self.light.leaving(entry, (&slant, medium.spread), ray, self.normal, surface.cos_t?);
+            self.light.leaving(entry, (&slant, medium.spread), ray, self.normal, surface.cos_t()?);
         let weight = self.arriving.at(medium.index, |arriving| arriving.split(&surface).1);
         Some(SharedExit { direction, change, weight })
     }

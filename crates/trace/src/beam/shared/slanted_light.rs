@@ -2,7 +2,7 @@
 
 use super::super::grow::entry_points;
 use brillianteer_math::{Basis, Plane};
-use brillianteer_optics::{reflect, refract, refracted_change};
+use brillianteer_optics::{Incidence, reflect, refract};
 use glam::{DVec2, DVec3};
 
 /// The least square of the cosine of refraction by which slants are divided.
@@ -110,9 +110,10 @@ impl SlantedLight {
         let (index, eta) = (slant.index, 1.0 / slant.index);
         let of_eta = -spread * eta * eta;
         let of_cos = -eta * entry.sin_squared * of_eta / slant.cos_t;
-        let change = (self.down * of_cos + self.along * of_eta, DVec3::ZERO, spread);
-        let cosines = (ray.dot(normal), cos_t);
-        let leaving = refract(ray, -normal, index, cosines);
-        (leaving, refracted_change(ray, -normal, index, cosines, change))
+        let cos_i = ray.dot(normal);
+        let of_direction = self.down * of_cos + self.along * of_eta;
+        let incidence = Incidence { direction: ray, normal: -normal, cos_i, of_direction, of_normal: None };
+        let leaving = refract(ray, -normal, index, (cos_i, cos_t));
+        (leaving, incidence.refracted_change(index, spread, cos_t))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::super::fields::field;
 use super::super::gpu_types;
+use super::super::imports::joined;
 use super::{card, run};
 use brillianteer_math::{ImplicitForm, ImplicitSurface, Jet};
 use glam::{DMat3, DVec3};
@@ -88,9 +89,7 @@ fn glass_has_the_same_value_gradient_and_bend_on_the_card() {
         shapes.iter().enumerate().flat_map(|(k, shape)| points(shape).map(move |p| (k, p))).collect();
     let narrow: Vec<[f32; 4]> = given.iter().map(|&(k, p)| gpu_types::with(p, k as f64)).collect();
     let told: Vec<gpu_types::ImplicitSurface> = shapes.iter().map(field).collect();
-    let text = gpu_types::IMPLICIT_SURFACE_WGSL.to_owned()
-        + include_str!("../../../../../shaders/jets.wgsl")
-        + JETS_WGSL;
+    let text = joined(&["jets"]) + JETS_WGSL;
     let found: Vec<[[f32; 4]; 4]> = run(&gpu, text, &narrow, Some(bytemuck::cast_slice(&told)));
     let (mut value, mut gradient, mut bend, mut compared) = (0.0_f64, 0.0_f64, 0.0_f64, 0);
     for ((&(k, _), narrow), found) in given.iter().zip(&narrow).zip(&found) {

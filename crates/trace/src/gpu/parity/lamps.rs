@@ -1,6 +1,6 @@
 //! Parity of lamps: the share of a fan that lies inside one, on the card and in the library.
 
-use super::super::gpu_types;
+use super::super::imports::joined;
 use super::{card, run};
 use crate::environment::share_inside;
 use glam::DVec3;
@@ -52,9 +52,8 @@ fn lamps_are_as_bright_on_the_card_however_far_a_fan_reaches() {
         })
         .collect();
     let chord = format!("const CHORD_SQUARED: f32 = {};\n", CHORD * CHORD);
-    let environment = include_str!("../../../../../shaders/environment.wgsl");
-    let structs = [gpu_types::FRAME_WGSL, gpu_types::ENVIRONMENT_WGSL, gpu_types::LAMP_WGSL].concat();
-    let found: Vec<f32> = run(&gpu, structs + &chord + environment + SHARE_WGSL, &given, None);
+    let text = joined(&["Frame", "environment"]) + &chord + SHARE_WGSL;
+    let found: Vec<f32> = run(&gpu, text, &given, None);
     // The largest difference for short fans, and the light of all fans by their length.
     let (mut largest, mut light) = (0.0_f64, [[0.0; 2]; 9]);
     for (given, found) in given.iter().zip(found) {

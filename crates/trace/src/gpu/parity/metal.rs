@@ -1,5 +1,6 @@
 //! Parity of metal: random numbers and what rough surfaces reflect, on the card and in the library.
 
+use super::super::imports::joined;
 use super::{card, run};
 use brillianteer_math::random_bits::{mixed, unit};
 use brillianteer_optics::{Metal, RoughMetal, Roughness};
@@ -23,7 +24,7 @@ fn samples(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let g = given[id.x];
-    let finish = roughnesses[SURFACES * ROUGHNESS_ROWS + id.x % FINISHES];
+    let finish = finish_of(roughnesses[SURFACES * ROUGHNESS_ROWS + id.x % FINISHES]);
     let out = vec3f(sqrt(1.0 - g.x * g.x), 0.0, g.x);
     let drawn = sample_metal(finish, out, g.yzw);
     let bits = mixed_bits(vec2u(id.x, 77u * id.x));
@@ -95,12 +96,11 @@ fn metal_reflects_on_the_card_as_in_the_library() {
     let finishes = metals(1.0).into_iter().map(|(_, finish)| finish);
     let other: Vec<[f32; 4]> = tables.chain(finishes).map(|row| row.map(|x| x as f32)).collect();
     let text = format!(
-        "const ROUGHNESS_ROWS: u32 = {}u;\nconst SURFACES: u32 = {}u;\nconst FINISHES: u32 = {}u;\n{}{}{SAMPLES_WGSL}",
+        "const ROUGHNESS_ROWS: u32 = {}u;\nconst SURFACES: u32 = {}u;\nconst FINISHES: u32 = {}u;\n{}{SAMPLES_WGSL}",
         Roughness::ROWS,
         ROUGHNESS.len(),
         metals(1.0).len(),
-        include_str!("../../../../../shaders/random.wgsl"),
-        include_str!("../../../../../shaders/microfacets.wgsl"),
+        joined(&["random", "microfacets"]),
     );
     let found: Vec<[[u32; 4]; 3]> = run(&gpu, text, &given, Some(bytemuck::cast_slice(&other)));
     for (k, row) in (0_u64..).zip(&found) {

@@ -33,6 +33,7 @@ struct Shot {
     wavelengths: u32,
     by_chance: f64,
     backdrop: bool,
+    is_polarised: bool,
 }
 
 impl Shot {
@@ -43,7 +44,7 @@ impl Shot {
         let (basis, eye) = (view.light_basis(), view.basis());
         let backdrop = self.backdrop;
         let environment = Environment { map: &map, basis, eye, head: 0.0, backplate: None, backdrop };
-        let options = RayOptions { polarised: true, most_bounces: 64, least_weight: 1e-4 };
+        let options = RayOptions { polarised: self.is_polarised, most_bounces: 64, least_weight: 1e-4 };
         let film = Film::square(SIZE, 1.1);
         work(&LitScene { scene: &self.scene, environment, view: &view, film, options })
     }
@@ -127,7 +128,7 @@ fn ring(body: impl Into<Body>, roughness: f64) -> Shot {
         of(&band, Metal::Platinum, 0.5, pose(DVec3::new(0.75, 0.6, 0.2), 0.25)),
     ];
     let scene = Scene { instances: vec![stone], metals, unit_mm: 3.25 };
-    Shot { scene, passes: 1, wavelengths: 3, by_chance: 0.0, backdrop: false }
+    Shot { scene, passes: 1, wavelengths: 3, by_chance: 0.0, backdrop: false, is_polarised: true }
 }
 
 /// The differences between two pictures of one scene.
@@ -238,6 +239,37 @@ fn metal_stands_on_the_card_beside_every_kind_of_solid_and_alone() {
     let mut alone = ring(gem(), 0.3);
     alone.scene.instances.clear();
     assert_same("no stone", &compared(&alone, &gpu));
+}
+
+/// Returns two plates of glass, one behind the other, which light passes at a slant. Their planes of incidence cross, so
+/// that the second passes little of what the first has passed best.
+fn crossed_plates() -> Shot {
+    let sides = DVec3::AXES.into_iter().zip([1.0, 1.0, 0.05]);
+    let planes: Vec<Plane> =
+        sides.flat_map(|(axis, half)| [Plane::new(axis, half), Plane::new(-axis, half)]).collect();
+    let body = Polytope::from_planes(&planes).unwrap();
+    let plate = |at: DVec3, turn: DQuat| Instance {
+        pose: Pose { at, turn: askew() * turn, scale: 0.8 },
+        ..Instance::new(body.clone(), dark(1.5, 0.02))
+    };
+    let instances = vec![
+        plate(DVec3::new(0.0, 0.2, 0.6), DQuat::from_rotation_x(1.3)),
+        plate(DVec3::new(0.0, -0.2, -0.6), DQuat::from_rotation_y(0.9)),
+    ];
+    let scene = Scene { instances, metals: vec![], unit_mm: 3.25 };
+    Shot { scene, passes: 1, wavelengths: 2, by_chance: 0.0, backdrop: true, is_polarised: true }
+}
+
+#[test]
+fn light_that_goes_from_stone_to_stone_keeps_its_polarisation_on_the_card() {
+    let name = "light_that_goes_from_stone_to_stone_keeps_its_polarisation_on_the_card";
+    let Some(gpu) = card(name) else { return };
+    let exact = crossed_plates().by_rays();
+    let found = differences(&exact, &crossed_plates().by_card(&gpu));
+    assert_same("crossed plates", &found);
+    let forgotten = Shot { is_polarised: false, ..crossed_plates() };
+    let found = differences(&exact, &forgotten.by_card(&gpu));
+    assert!(found.blocks > 0.05, "without polarisation: {found:?}");
 }
 
 #[test]
