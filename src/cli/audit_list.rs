@@ -1,9 +1,7 @@
-//! Prints the findings of an audit for `info`: as a list for people, and as JSON.
+//! Lists the findings of an audit for `info`.
 
 use brillianteer_cut::{Audit, Finding, FindingKind, tier_stem};
 use brillianteer_math::{fixed, grouped};
-use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The most places that the list prints for alike findings; JSON has all.
@@ -11,16 +9,6 @@ const MOST_PLACES: usize = 3;
 
 /// The most names of facets that a line of the list prints.
 const MOST_NAMES: usize = 12;
-
-/// Returns the audit as JSON: the number of findings of each kind, and all findings.
-pub fn audit_json(audit: &Audit) -> Value {
-    let kinds = FindingKind::ALL.map(|kind| (kind, audit.of_kind(kind).count()));
-    let counts: BTreeMap<String, usize> = kinds
-        .into_iter()
-        .filter_map(|(kind, count)| Some((json!(kind).as_str()?.to_owned(), count)))
-        .collect();
-    json!({ "counts": counts, "findings": audit.findings })
-}
 
 /// Returns the audit as a list. Findings of one kind about the same tiers and of the same size share a line.
 pub fn audit_list(audit: &Audit) -> String {

@@ -1,9 +1,9 @@
 //! Runs a command on several files, one after the other.
 
-use super::console::{STANDARD_OUTPUT, print, say};
+use super::console::{STANDARD_OUTPUT, print_json, print_json_line, say};
 use super::specimen::stem;
 use brillianteer_base::Failure;
-use serde_json::json;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Returns an error if two input files would give their outputs the same names.
@@ -55,7 +55,19 @@ pub fn report_failure(file: &Path, failure: &Failure, is_json: bool) -> Result<(
     let (name, message) = (file.display().to_string(), failure.to_string());
     let named = if message.starts_with(&name) { message.clone() } else { format!("{name}: {message}") };
     say(&format!("error: {named}"));
-    if is_json { print(&json!({ "file": name, "error": message }).to_string()) } else { Ok(()) }
+    if is_json { print_json_line(&FailedFile { file: name, error: message }) } else { Ok(()) }
+}
+
+/// The object in the place of the result of a file that failed.
+#[derive(Serialize)]
+struct FailedFile {
+    file: String,
+    error: String,
+}
+
+/// Prints the result of one of these files as JSON: indented where it is the only one, else on a line of its own.
+pub fn print_json_of(files: &[PathBuf], result: &impl Serialize) -> Result<(), Failure> {
+    if files.len() > 1 { print_json_line(result) } else { print_json(result) }
 }
 
 /// Returns whether no further file can be worked on after a failure.

@@ -3,8 +3,9 @@
 
 #[cfg(feature = "gpu")]
 mod card_use;
+mod report;
 
-use super::console::{json, print, say};
+use super::console::{print, print_json, say};
 use super::specimen::LoadedSpecimen;
 use brillianteer_base::{Failure, unwatched};
 use brillianteer_files::mesh_options::MeshOptions;
@@ -24,7 +25,7 @@ use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};
 use brillianteer_trace::sampling::SamplePass;
 use clap::Args;
 use glam::DVec2;
-use serde_json::{Value, json};
+use report::{BenchReport, CardLine, Row, Task};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -58,26 +59,6 @@ pub struct BenchArguments {
     json: bool,
 }
 
-/// The time that one tracer took for a task.
-struct Row {
-    tracer: &'static str,
-    by: String,
-    milliseconds: f64,
-    /// The description of a graphics card's time; `None` for other tracers.
-    card: Option<CardLine>,
-}
-
-/// Text for the table and an object for JSON.
-type CardLine = (String, Value);
-
-/// A picture, and the time that each tracer took for it.
-struct Task {
-    what: String,
-    /// The number of planes tested for the picture, if each ray tests all planes at each bounce.
-    plane_tests: f64,
-    rows: Vec<Row>,
-}
-
 impl BenchArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), &MeshOptions::default())?;
@@ -87,9 +68,12 @@ impl BenchArguments {
             print(&format!("modern ideal; {threads} threads{}", card_peak()?))?;
         }
         let mut tasks = vec![];
-        let mut done = |task: Task| {
-            tasks.push(task.json());
-            if self.json { Ok(()) } else { print(&format!("\n{}", task.table())) }
+        let mut done = |task: Task| -> Result<(), Failure> {
+            if !self.json {
+                print(&format!("\n{}", task.table()))?;
+            }
+            tasks.push(task);
+            Ok(())
         };
         for (size, bounces) in SCOPES {
             done(in_scope(&specimen, size, bounces)?)?;
@@ -102,36 +86,7 @@ impl BenchArguments {
             return Ok(());
         }
         let card = Card::Machine.any().map_or("point rays".to_owned(), |card| card.description());
-        print(&json(&json!({ "threads": threads, "card": card, "tasks": tasks })))
-    }
-}
-
-impl Task {
-    /// Returns the planes tested per second; `None` for beams, which test no planes.
-    fn rate(&self, row: &Row) -> Option<f64> {
-        (row.tracer != "beam").then(|| self.plane_tests / row.milliseconds * 1e3)
-    }
-
-    fn json(&self) -> Value {
-        let row = |row: &Row| {
-            let card = row.card.as_ref().map(|(_, json)| json);
-            json!({
-                "tracer": row.tracer, "by": row.by, "ms": row.milliseconds, "plane_tests_per_second": self.rate(row),
-                "card": card,
-            })
-        };
-        let rows: Vec<Value> = self.rows.iter().map(row).collect();
-        json!({ "task": self.what, "plane_tests": self.plane_tests, "results": rows })
-    }
-
-    fn table(&self) -> String {
-        let line = |row: &Row| {
-            let rate = self.rate(row).map(|r| format!("{:.1} G/s", r / 1e9)).unwrap_or_default();
-            let card = row.card.as_ref().map_or("", |(text, _)| text);
-            format!("\n{:>10.2} ms {rate:>12}  {}{card}", row.milliseconds, row.by)
-        };
-        let rows: String = self.rows.iter().map(line).collect();
-        format!("{}\n{:>13} {:>12}{rows}", self.what, "time", "plane tests")
+        print_json(&BenchReport { threads, card, tasks })
     }
 }
 
@@ -231,7 +186,7 @@ fn rows(job: &Job, load: &Load) -> Result<Vec<Row>, Failure> {
             if plan.backend.is_beams() { format!(", unresolved {UNRESOLVED}") } else { String::new() };
         let by = plan.backend.description() + &unresolved;
         let (milliseconds, card) = timed_by(&plan.backend, load, picture)?;
-        Ok(Some(Row { tracer: plan.backend.name(), by, milliseconds, card }))
+        Ok(Some(Row::new(plan.backend.name(), by, milliseconds, card)))
     };
     TRACERS.into_iter().filter_map(|tracer| row(tracer).transpose()).collect()
 }
@@ -259,7 +214,7 @@ fn in_scope(specimen: &LoadedSpecimen, size: u32, bounces: u32) -> Result<Task, 
     let planes = polytope.facets().len();
     let what = format!("ASET, {planes} planes, {size} x {size}, {bounces} bounces at most");
     let load = Load::new(polytope, film, &[medium], bounces);
-    Ok(Task { what, plane_tests: load.plane_tests, rows: rows(&job, &load)? })
+    Ok(Task::new(what, load.plane_tests, rows(&job, &load)?))
 }
 
 fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
@@ -293,7 +248,7 @@ fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failur
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",
         polytope.facets().len()
     );
-    Ok(Task { what, plane_tests: load.plane_tests, rows: rows(&job, &load)? })
+    Ok(Task::new(what, load.plane_tests, rows(&job, &load)?))
 }
 
 /// Times the figures of a stone in the ASET by beams, whose rest is estimated by rays.
@@ -310,7 +265,7 @@ fn figures(specimen: &LoadedSpecimen, tilt_deg: f64) -> Result<Task, Failure> {
     })?;
     let by = format!("exact beams and rays, standard error {STANDARD_ERROR}");
     let what = format!("figures, tilted {tilt_deg} degrees, {} planes", polytope(specimen)?.facets().len());
-    Ok(Task { what, plane_tests: 0.0, rows: vec![Row { tracer: "beam", by, milliseconds, card: None }] })
+    Ok(Task::new(what, 0.0, vec![Row::new("beam", by, milliseconds, None)]))
 }
 
 /// The work that a picture is for a tracer that tests all planes at each bounce.

@@ -3,6 +3,7 @@
 use brillianteer_base::Failure;
 use brillianteer_files::is_standard;
 use brillianteer_paper::export::Event;
+use serde::Serialize;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -54,9 +55,31 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Formats a value as indented JSON, with the keys in their given order.
-pub fn json(value: &serde_json::Value) -> String {
-    format!("{value:#}")
+/// A result of one file: an object that begins with the key `file`.
+#[derive(Debug, Serialize)]
+pub struct OfFile<'a, T> {
+    pub file: &'a str,
+    #[serde(flatten)]
+    pub result: T,
+}
+
+/// Prints a result as indented JSON.
+pub fn print_json(result: &impl Serialize) -> Result<(), Failure> {
+    print(&serde_json::to_string_pretty(result).map_err(no_json)?)
+}
+
+/// Prints a result as JSON on one line.
+pub fn print_json_line(result: &impl Serialize) -> Result<(), Failure> {
+    print(&json_line(result)?)
+}
+
+/// Returns a result as JSON on one line, without its line break.
+pub fn json_line(result: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string(result).map_err(no_json)
+}
+
+fn no_json(error: serde_json::Error) -> Failure {
+    Failure::Output(format!("{STANDARD_OUTPUT}: {error}"))
 }
 
 #[cfg(test)]

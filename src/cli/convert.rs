@@ -3,7 +3,7 @@
 use super::choice::{DESIGN_FORMATS, one_of};
 use super::comments;
 use super::console::{say, written};
-use super::meets::KnownMeets;
+use super::meets::MeetList;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
@@ -92,7 +92,7 @@ impl Convert {
 /// Returns the stone with its tiers at the distances that follow from their meets.
 fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
     let LoadedSpecimen { path, made, errors, bodies, remarks } = specimen;
-    let Some(meets) = KnownMeets::of(&made) else {
+    let Some(meets) = MeetList::of(&made) else {
         let why = made.why_not_convex().unwrap_or_default();
         return Err(Failure::Input(format!(
             "{path}: --meets follows the meets of tiers, which cut convex stones between planes, and {why}; leave the option out"

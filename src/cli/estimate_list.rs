@@ -4,10 +4,9 @@ use super::specimen::LoadedSpecimen;
 use brillianteer_base::Failure;
 use brillianteer_base::Unit;
 use brillianteer_cut::ClassEstimate;
-use brillianteer_math::fixed;
 use brillianteer_measure::brilliant_proportions;
-use serde_json::{Value, json};
-use std::fmt::Write;
+use brillianteer_paper::table::{Column, Table, TableCell};
+use serde::Serialize;
 
 /// The note below every estimate.
 const NOTE: &str = "An estimate after the ranges that GIA publishes for single proportions of round brilliants of diamond, and after our own\n\
@@ -34,38 +33,45 @@ pub fn estimated(specimen: &LoadedSpecimen) -> Result<ClassEstimate, Failure> {
     Ok(ClassEstimate::after_gia(&proportions))
 }
 
-/// Returns an estimate as docs/formats.md describes it.
-pub fn estimate_json(path: &str, estimate: &ClassEstimate) -> Value {
-    json!({ "file": path, "estimate_after_gia": estimate, "note": NOTE.replace('\n', " ") })
+/// An estimate, with the note that belongs to every estimate.
+#[derive(Serialize)]
+pub struct NotedEstimate {
+    estimate_after_gia: ClassEstimate,
+    /// The nature of the estimate, and the properties that it does not judge.
+    note: String,
 }
 
-/// Formats an estimate as a table.
+impl NotedEstimate {
+    /// Adds the note to an estimate.
+    pub fn of(estimate: ClassEstimate) -> Self {
+        Self { estimate_after_gia: estimate, note: NOTE.replace('\n', " ") }
+    }
+}
+
+/// Formats an estimate as tables.
 pub fn table_of_estimate(path: &str, estimate: &ClassEstimate) -> String {
-    let mut text = format!(
-        "{path}: estimate after GIA's published ranges, not a grade\n\n{:<28}{:>10}{:>10}{:>7}\n",
-        "", "measured", "rounded", "class"
-    );
+    let mut limits = Table::headed([
+        Column::left("", 28),
+        Column::right("measured", 10).digits(2),
+        Column::right("rounded", 10).digits(1),
+        Column::right("class", 7),
+    ]);
     for limit in &estimate.limits {
         let unit = match limit.unit {
             _ if limit.measured.is_none() => "",
             Unit::Degrees => ", °",
             _ => ", %",
         };
-        let name = format!("{}{unit}", limit.name);
-        let shown =
-            |value: Option<f64>, digits: usize| value.map_or_else(String::new, |value| fixed(value, digits));
-        let (measured, rounded) = (shown(limit.measured, 2), shown(limit.rounded, 1));
-        let _ = writeln!(text, "{name:<28}{measured:>10}{rounded:>10}{:>7}", limit.class);
+        let number = |value: Option<f64>| value.map_or("".into(), TableCell::Number);
+        let (name, class) = (format!("{}{unit}", limit.name), limit.class.to_string());
+        limits.row([name.into(), number(limit.measured), number(limit.rounded), class.into()]);
     }
-    let _ = writeln!(text, "\n{:<48}{:>7}", "estimate: the worst of these", estimate.class);
+    let mut classes = Table::new([Column::left("", 48), Column::right("", 7)]);
+    classes.pair("estimate: the worst of these", estimate.class.to_string());
     for other in &estimate.nearby {
         let name = other.name.to_lowercase();
-        let _ = writeln!(
-            text,
-            "{:<48}{:>7}",
-            format!("with the {name} rounded to {:.1} instead", other.rounded),
-            other.class
-        );
+        let how = format!("with the {name} rounded to {:.1} instead", other.rounded);
+        classes.pair(&how, other.class.to_string());
     }
-    text + "\n" + NOTE
+    format!("{path}: estimate after GIA's published ranges, not a grade\n\n{limits}\n\n{classes}\n\n{NOTE}")
 }

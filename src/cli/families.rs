@@ -1,12 +1,12 @@
 //! `families`: lists the families of cuts, or prints the numbers of one with their ranges.
 
-use super::console::{json, print};
-use brillianteer_base::{Failure, nearest};
-use brillianteer_cut::{Bound, BoundAt, FAMILIES, Family, Proportion, Unit};
+use super::console::{print, print_json};
+use brillianteer_base::{Failure, Unit, nearest};
+use brillianteer_cut::{Bound, BoundAt, FAMILIES, Family, Proportion};
 use brillianteer_files::cut_file;
 use brillianteer_files::library::CUTS;
 use clap::Args;
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::fmt::Write;
 
 #[derive(Debug, Args)]
@@ -24,7 +24,7 @@ impl Families {
             None => self.all(),
             Some(key) => {
                 let family = Family::of_key(&key.replace('-', "_")).ok_or_else(|| unknown(key))?;
-                print(&if self.json { json(&object(family)) } else { page(family) })
+                if self.json { print_json(&FamilyNumbers::of(family)) } else { print(&page(family)) }
             }
         }
     }
@@ -35,8 +35,9 @@ impl Families {
             rows.push((family, cuts(family)?));
         }
         if self.json {
-            let entry = |(family, cuts): (&Family, Vec<&str>)| json!({ "key": family.key, "name": family.name, "cuts": cuts });
-            return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
+            let entry =
+                |(family, cuts): (&Family, _)| FamilyCuts { key: family.key, name: family.name, cuts };
+            return print_json(&rows.into_iter().map(entry).collect::<Vec<_>>());
         }
         let line = |(family, cuts): (&Family, Vec<&str>)| {
             format!("{:<18}{:<20}{}", family.key, family.name, cuts.join(", "))
@@ -86,33 +87,73 @@ fn page(family: &'static Family) -> String {
     text
 }
 
-/// Returns a family's numbers as JSON.
-fn object(family: &'static Family) -> Value {
-    let number = |row: &'static Proportion| {
-        let end = |bound: Option<Bound>| match bound {
-            Some(Bound { at: BoundAt::Fixed(at), .. }) => json!(at),
-            _ => Value::Null,
+/// A family, and the names of its cuts that come with the program.
+#[derive(Serialize)]
+struct FamilyCuts {
+    key: &'static str,
+    name: &'static str,
+    cuts: Vec<&'static str>,
+}
+
+/// A family, and its numbers.
+#[derive(Serialize)]
+struct FamilyNumbers {
+    key: &'static str,
+    name: &'static str,
+    numbers: Vec<FamilyNumber>,
+}
+
+/// A number of a family. Bounds that depend on other numbers have a reason and no value.
+#[derive(Serialize)]
+struct FamilyNumber {
+    key: &'static str,
+    name: &'static str,
+    unit: String,
+    meaning: &'static str,
+    can_be_set: bool,
+    /// The usual range.
+    usual: [f64; 2],
+    /// The source of the usual range, where one is known.
+    source: Option<&'static str>,
+    least: Option<f64>,
+    least_reason: Option<&'static str>,
+    most: Option<f64>,
+    most_reason: Option<&'static str>,
+    /// The value in the cut with which the family begins.
+    first: f64,
+    default: Option<f64>,
+    /// The keys of the numbers in whose place a file may state this one.
+    in_the_place_of: Vec<&'static str>,
+}
+
+impl FamilyNumbers {
+    fn of(family: &'static Family) -> Self {
+        let number = |row: &'static Proportion| FamilyNumber {
+            key: row.key,
+            name: row.name,
+            unit: unit(row),
+            meaning: row.meaning,
+            can_be_set: row.can_be_set(),
+            usual: row.usual,
+            source: family.range_source(row),
+            least: fixed(row.least),
+            least_reason: row.least.map(|bound| bound.reason),
+            most: fixed(row.most),
+            most_reason: row.most.map(|bound| bound.reason),
+            first: value(family, row),
+            default: row.default,
+            in_the_place_of: row.pair.as_slice().iter().chain(row.moves).copied().collect(),
         };
-        let limits = |bound: Option<Bound>| bound.map(|bound| bound.reason);
-        json!({
-            "key": row.key,
-            "name": row.name,
-            "unit": unit(row),
-            "meaning": row.meaning,
-            "can_be_set": row.can_be_set(),
-            "usual": row.usual,
-            "source": family.range_source(row),
-            "least": end(row.least),
-            "least_reason": limits(row.least),
-            "most": end(row.most),
-            "most_reason": limits(row.most),
-            "first": value(family, row),
-            "default": row.default,
-            "in_the_place_of": row.pair.as_slice().iter().chain(row.moves).collect::<Vec<_>>(),
-        })
-    };
-    let numbers: Vec<Value> = family.proportions.iter().map(number).collect();
-    json!({ "key": family.key, "name": family.name, "numbers": numbers })
+        Self { key: family.key, name: family.name, numbers: family.proportions.iter().map(number).collect() }
+    }
+}
+
+/// Returns the value of a bound that depends on no other number.
+fn fixed(bound: Option<Bound>) -> Option<f64> {
+    match bound?.at {
+        BoundAt::Fixed(at) => Some(at),
+        _ => None,
+    }
 }
 
 /// Returns the value of the family's first cut. Derived numbers have more digits than a reader needs.

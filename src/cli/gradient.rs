@@ -1,20 +1,19 @@
 //! `gradient`: prints how the measures of a design change with its numbers.
 
-use super::console::{json, print, say};
+use super::console::{OfFile, print, print_json, say};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
 use super::specimen::note_namesakes;
-use brillianteer_base::Failure;
-use brillianteer_base::Unit;
+use brillianteer_base::{ByName, Failure, Unit};
 use brillianteer_cut::{Cut, ScaledSide};
 use brillianteer_math::signed;
 use brillianteer_measure::{Interval, MeasureName};
+use brillianteer_paper::table::{Column, Table, TableCell};
 use brillianteer_render::{
-    GradedStone, LEAST_TIER_DEG, MeasureGradient, RenderError, Sweep, SweepError, SweepKey,
+    GradedStone, LEAST_TIER_DEG, MeasureGradient, MeasureSlopes, RenderError, Sweep, SweepError, SweepKey,
 };
 use clap::Args;
-use serde_json::{Map, Value};
-use std::fmt::Write;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// The measures that are listed where none are chosen.
@@ -69,7 +68,8 @@ impl GradientArguments {
             say(&format!("warning: {file}: {why}; the derivatives are those of the light that was followed"));
         }
         if self.json {
-            return print(&json(&value(&file, &keys, &found)));
+            let result = FoundSlopes { measures: found.by_name(&keys) };
+            return print_json(&OfFile { file: &file, result });
         }
         print(&table(&sweep, &keys, &found))
     }
@@ -95,39 +95,26 @@ fn all_keys(cut: &Cut) -> Vec<SweepKey> {
     keys
 }
 
-/// Returns a gradient as docs/formats.md describes it.
-fn value(file: &str, keys: &[SweepKey], found: &GradedStone) -> Value {
-    let of = |each: &MeasureGradient| {
-        let interval = each.name.of(&found.stone.measures);
-        let slope = |place: usize| match each.sides[place] {
-            Some([below, above]) => serde_json::json!({ "below": below, "above": above }),
-            None => each.per[place].into(),
-        };
-        let per: Map<String, Value> = (0..).zip(keys).map(|(k, key)| (key.to_string(), slope(k))).collect();
-        (each.name.to_string(), serde_json::json!({ "value": interval, "per": per }))
-    };
-    let measures: Map<String, Value> = found.gradients.iter().map(of).collect();
-    serde_json::json!({ "file": file, "measures": measures })
+/// The measures of a design and their changes.
+#[derive(Serialize)]
+struct FoundSlopes {
+    measures: ByName<MeasureSlopes>,
 }
 
 /// Formats a gradient as a table: a row for each number, a column for each measure.
 fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
     let GradedStone { stone, gradients: found } = found;
-    let mut text = format!("{}: percent per unit\n\n", sweep.design.name);
-    let widths: Vec<usize> = found.iter().map(|each| each.name.to_string().len().max(9) + 2).collect();
-    let mut row = |name: String, cells: Vec<String>| {
-        let _ = write!(text, "{name:<38}");
-        for (cell, width) in cells.iter().zip(&widths) {
-            let _ = write!(text, "{cell:>width$}");
-        }
-        text.push('\n');
+    let of_measure = |each: &MeasureGradient| {
+        let name = each.name.to_string();
+        let width = name.len().max(9) + 2;
+        Column::right(name, width).digits(3)
     };
-    row(String::new(), found.iter().map(|each| each.name.to_string()).collect());
-    let intervals: Vec<_> = found.iter().map(|each| each.name.of(&stone.measures)).collect();
-    let shown = |of: fn(&Interval) -> f64| -> Vec<String> {
-        let percent =
-            |value: &Option<Interval>| value.map_or("-".to_owned(), |v| format!("{:.3}", 100.0 * of(&v)));
-        intervals.iter().map(percent).collect()
+    let columns = std::iter::once(Column::left("", 38)).chain(found.iter().map(of_measure));
+    let mut table = Table::headed(columns.collect::<Vec<_>>());
+    let mut row = |name: String, cells: Vec<TableCell>| table.row(std::iter::once(name.into()).chain(cells));
+    let shown = |of: fn(&Interval) -> f64| -> Vec<TableCell> {
+        let value = |each: &MeasureGradient| each.name.of(&stone.measures).map(|value| 100.0 * of(&value));
+        found.iter().map(|each| value(each).into()).collect()
     };
     row("value".to_owned(), shown(|value| value.middle()));
     row("±".to_owned(), shown(|value| value.error()));
@@ -141,7 +128,7 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
         };
         let name = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };
         let mut slopes = |name: String, of: &dyn Fn(&MeasureGradient) -> f64| {
-            row(name, found.iter().map(|each| signed(100.0 * of(each), 4)).collect());
+            row(name, found.iter().map(|each| signed(100.0 * of(each), 4).into()).collect());
         };
         if found.iter().all(|each| each.sides[k].is_none()) {
             slopes(name, &|each| each.per[k]);
@@ -153,10 +140,10 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
             slopes(format!("{name}, {what}"), &of);
         }
     }
+    let mut text = format!("{}: percent per unit\n\n{table}\n", sweep.design.name);
     if !kinks.is_empty() {
         let (keys, has) = (kinks.join(", "), if kinks.len() == 1 { "has" } else { "have" });
-        let _ = write!(
-            text,
+        text += &format!(
             "\n{keys} {has} a kink at this value: the stone's planes change in another way below it than above it, so that \
              each side has a slope of its own.\n"
         );

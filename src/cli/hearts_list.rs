@@ -1,8 +1,9 @@
 //! Lists of a stone's hearts and arrows, and of its spread.
 
-use brillianteer_math::{fixed, signed};
+use brillianteer_math::signed;
 use brillianteer_measure::{EightfoldPattern, FaceUpSize, OctantFigure, OctantUnit};
 use brillianteer_paper::export::HeartsReport;
+use brillianteer_paper::table::{Column, Table, TableCell};
 use std::fmt::Write;
 
 /// Departures below this are printed as 0, and then no octant is named as the worst.
@@ -36,11 +37,15 @@ pub fn table_of_hearts(report: &HeartsReport) -> String {
 }
 
 /// Adds the table of one pattern.
-fn list(text: &mut String, name: &str, pattern: &EightfoldPattern) {
-    let _ = writeln!(text, "\n{name:<32}{:>9}{:>9}   worst octant", "median", "max-min");
-    for figure in &pattern.figures {
-        let _ = writeln!(text, "{}", line(figure, &pattern.mains));
-    }
+fn list(text: &mut String, name: &'static str, pattern: &EightfoldPattern) {
+    let mut table = Table::headed([
+        Column::left(name, 32),
+        Column::right("median", 9).digits(3),
+        Column::right("max-min", 9).digits(3),
+        Column::text("worst octant").after(3),
+    ]);
+    pattern.figures.iter().for_each(|figure| table.row(cells(figure, &pattern.mains)));
+    let _ = writeln!(text, "\n{table}");
     let worst = pattern.worst();
     let _ = write!(text, "departure from eightfold: {:.3} % of the pattern's area", pattern.departure);
     if worst.by >= NOT_SHOWN {
@@ -55,8 +60,8 @@ fn list(text: &mut String, name: &str, pattern: &EightfoldPattern) {
     let _ = writeln!(text, "\nthe strongest exit of {:.3} % of the face is not certain", pattern.undecided);
 }
 
-/// Formats one figure.
-fn line(figure: &OctantFigure, mains: &[String; 8]) -> String {
+/// Returns the cells of one figure.
+fn cells(figure: &OctantFigure, mains: &[String; 8]) -> [TableCell; 4] {
     let unit = match figure.unit {
         OctantUnit::Diameter => "% D",
         OctantUnit::Face => "% F",
@@ -64,7 +69,7 @@ fn line(figure: &OctantFigure, mains: &[String; 8]) -> String {
     };
     let name = format!("{}, {unit}", figure.name);
     let (Some(median), Some(spread), Some(worst)) = (figure.median, figure.spread, figure.worst) else {
-        return format!("{name:<32}{:>9}{:>9}   in no octant", "-", "-");
+        return [name.into(), "-".into(), "-".into(), "in no octant".into()];
     };
     let missing: Vec<String> = (1..)
         .zip(&figure.octants)
@@ -76,30 +81,23 @@ fn line(figure: &OctantFigure, mains: &[String; 8]) -> String {
         true if spread < NOT_SHOWN => "-".to_owned(),
         true => format!("{} ({}) {}", worst.octant, mains[worst.octant - 1], signed(worst.by, 3)),
     };
-    format!("{name:<32}{:>9}{:>9}   {at}", fixed(median, 3), fixed(spread, 3))
+    [name.into(), median.into(), spread.into(), at.into()]
 }
 
 /// Formats the spread of a stone.
 pub fn table_of_spread(path: &str, size: &FaceUpSize) -> String {
-    let dash = |value: Option<f64>, digits: usize| {
-        value.map_or_else(|| "-".to_owned(), |value| fixed(value, digits))
-    };
+    let mut table = Table::new([Column::left("", 28), Column::right("", 10).digits(3)]);
+    table.pair("face, mm²", size.face_mm2);
+    table.pair("mean width, mm", size.mean_width_mm);
+    table.pair("weight, ct", size.carats);
+    table.pair("face for weight, mm²/ct", size.mm2_per_carat);
+    table.pair("spread, %", signed(size.spread_percent, 3));
+    table.pair("weight ratio", size.weight_ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.4}")));
     format!(
         "{path}: face-up size for weight\n\n\
-         face, mm²                    {:>9.3}\n\
-         mean width, mm               {:>9.3}\n\
-         weight, ct                   {:>9}\n\
-         face for weight, mm²/ct      {:>9}\n\
-         spread, %                    {:>9}\n\
-         weight ratio                 {:>9}\n\n\
+         {table}\n\n\
          Spread is by how much the face is larger than that of a reference brilliant of the same weight (table 57, crown 34.0°,\n\
          pavilion 40.7°, girdle 2.5 %). The weight ratio, after GIA and only of round stones, is the volume in volumes of that\n\
-         brilliant at the same mean width.",
-        size.face_mm2,
-        size.mean_width_mm,
-        dash(size.carats, 3),
-        dash(size.mm2_per_carat, 3),
-        signed(size.spread_percent, 3),
-        dash(size.weight_ratio, 4),
+         brilliant at the same mean width."
     )
 }

@@ -1,35 +1,24 @@
 //! `info`: prints a stone's geometry, proportions and weight, or the stones of a scene.
 
-use super::audit_list::{audit_json, audit_list};
-use super::batch::each_file;
-use super::console::{json, print, say};
-use super::meets::KnownMeets;
+use super::audit_list::audit_list;
+use super::batch::{each_file, print_json_of};
+use super::console::{print, say};
+use super::meets::MeetList;
 use super::specimen::{LoadedSpecimen, weight};
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
 use brillianteer_base::Unit;
-use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{
-    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, tier_stem,
+    AlongAxes, Audit, CountedAudit, Cut, MaterialRef, ProportionReport, Spread, TierReport,
 };
 use brillianteer_files::STANDARD;
-use brillianteer_files::assembly::{Assembly, MadeRing};
+use brillianteer_files::assembly::Assembly;
 use brillianteer_files::built_design::is_scene;
-use brillianteer_files::mesh::MeshBody;
-use brillianteer_math::{Facet, Polytope, fixed, rounded};
-use brillianteer_scene::{ALLOYS, Alloy, Body};
+use brillianteer_math::{fixed, rounded};
+use brillianteer_paper::info::{FacetInfo, FacetedInfo, MeshInfo, RingInfo, SceneInfo, StoneInfo};
+use brillianteer_paper::table::{Column, Table, TableCell};
 use clap::Args;
-use glam::DVec2;
-use serde_json::{Value, json};
-use std::fmt::Write;
-use std::path::PathBuf;
-
-/// The tilt of a facet's normal, as the sine of its angle to the axis, up to which rounding alone would choose an azimuth.
-/// Such a facet counts as level and has the azimuth 0.
-const LEVEL: f64 = 1e-12;
-
-/// The distance from 360 degrees, in degrees, below which an azimuth counts as 0: the rest is rounding.
-const ROUNDING_DEG: f64 = 1e-9;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct Info {
@@ -56,38 +45,46 @@ pub struct Info {
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
-        each_file(&self.files, self.json, |file| {
-            if is_scene(file) {
-                let assembly = self.specimen.load_assembly(file)?;
-                for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
-                    if is_asked {
-                        let file = file.display();
-                        say(&format!(
-                            "note: {file}: {name} is for single stones and has no effect on a scene"
-                        ));
-                    }
-                }
-                return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
-            }
-            let specimen = self.specimen.load(file)?;
-            let mut value = described(&specimen)?;
-            let meets = self.meets.then(|| KnownMeets::of(&specimen)).flatten();
-            if self.meets && meets.is_none() {
-                let why = specimen.why_not_convex().unwrap_or_default();
-                specimen
-                    .say(&format!("tiers cut convex stones between planes, and {why}, so it has no meets"));
-            }
-            meets.iter().for_each(|meets| meets.say_turned(&specimen.path));
-            if let Some(meets) = &meets {
-                value["meets"] = meets.json();
-            }
-            let audit = self.audited(&specimen);
-            if self.audit {
-                value["audit"] = audit.as_ref().map_or(Value::Null, audit_json);
-            }
-            let listed = [meets.as_ref().map(KnownMeets::table), audit.as_ref().map(audit_list)];
-            self.print_as(&value, || self.text(&specimen, &value, listed.into_iter().flatten().collect()))
+        each_file(&self.files, self.json, |file| match is_scene(file) {
+            true => self.scene(file),
+            false => self.stone(file),
         })
+    }
+
+    fn scene(&self, file: &Path) -> Result<(), Failure> {
+        let assembly = self.specimen.load_assembly(file)?;
+        for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
+            if is_asked {
+                let file = file.display();
+                say(&format!("note: {file}: {name} is for single stones and has no effect on a scene"));
+            }
+        }
+        let info = SceneInfo::of(&assembly);
+        if self.json {
+            return print_json_of(&self.files, &info);
+        }
+        print(&scene_table(&info, &assembly))
+    }
+
+    fn stone(&self, file: &Path) -> Result<(), Failure> {
+        let specimen = self.specimen.load(file)?;
+        let LoadedSpecimen { path, made, errors, bodies, .. } = &specimen;
+        let mut info = StoneInfo::of(path, made, errors, bodies)
+            .map_err(|error| Failure::Input(format!("{path}: {error}")))?;
+        let meets = self.meets.then(|| MeetList::of(made)).flatten();
+        if self.meets && meets.is_none() {
+            let why = specimen.why_not_convex().unwrap_or_default();
+            specimen.say(&format!("tiers cut convex stones between planes, and {why}, so it has no meets"));
+        }
+        meets.iter().for_each(|meets| meets.say_turned(path));
+        let audit = self.audited(&specimen);
+        if !self.json {
+            let lists = [meets.as_ref().map(MeetList::table), audit.as_ref().map(audit_list)];
+            return print(&self.text(&specimen, &info, lists.into_iter().flatten().collect()));
+        }
+        info.meets = meets.map(|meets| meets.known.tiers);
+        info.audit = self.audit.then(|| audit.map(CountedAudit::from));
+        print_json_of(&self.files, &info)
     }
 
     /// Audits the stone if the option is set; a solid that is no convex stone between planes gets a note instead.
@@ -104,105 +101,70 @@ impl Info {
     }
 
     /// Returns the text about a stone: only the lists whose options are set, or else its figures and tiers.
-    fn text(&self, specimen: &LoadedSpecimen, value: &Value, lists: Vec<String>) -> String {
-        let heading = heading(&specimen.path, &specimen.design.name);
-        let mut parts = if lists.is_empty() { vec![table(specimen, value)] } else { lists };
-        parts.extend(self.facets.then(|| facet_table(value)).flatten());
-        heading + &parts.join("\n\n")
-    }
-
-    fn print_as(&self, value: &Value, table: impl FnOnce() -> String) -> Result<(), Failure> {
-        match (self.json, self.files.len()) {
-            (true, 1) => print(&json(value)),
-            (true, _) => print(&value.to_string()),
-            (false, _) => print(&table()),
-        }
+    fn text(&self, specimen: &LoadedSpecimen, info: &StoneInfo, lists: Vec<String>) -> String {
+        let mut parts = if lists.is_empty() { vec![table(specimen, info)] } else { lists };
+        let faceted = info.faceted.as_ref().filter(|_| self.facets);
+        parts.extend(faceted.map(|faceted| facet_table(&faceted.facets).to_string()));
+        heading(&info.file, &info.name) + &parts.join("\n\n")
     }
 }
 
-fn scene_json(assembly: &Assembly) -> Value {
-    let stones = assembly.scene.instances.iter().zip(&assembly.places).map(|(stone, place)| {
-        json!({
-            "cut": stone.label,
-            "material": stone.material.name,
-            "diameter_mm": place.diameter_mm,
-            "carats": stone.carats(assembly.scene.unit_mm),
-            "at_mm": place.at_mm.to_array(),
-        })
-    });
-    let metals = assembly.scene.metals.iter().map(
-        |metal| json!({ "mesh": metal.label, "metal": metal.metal.name(), "roughness": metal.roughness }),
-    );
-    json!({
-        "file": assembly.path,
-        "name": assembly.name,
-        "light": assembly.look.light,
-        "unit_mm": assembly.scene.unit_mm,
-        "carats": assembly.carats(),
-        "ring": assembly.ring.as_ref().map(ring_json),
-        "stones": stones.collect::<Vec<_>>(),
-        "metals": metals.collect::<Vec<_>>(),
-    })
-}
-
-fn scene_table(assembly: &Assembly) -> String {
-    let mut text = heading(&assembly.path, &assembly.name);
-    let _ = writeln!(text, "  {:<28}{}", "light", assembly.look.light);
-    if !assembly.scene.instances.is_empty() {
-        let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
+fn scene_table(info: &SceneInfo, assembly: &Assembly) -> String {
+    let mut lines = Table::of_pairs();
+    lines.pair("light", info.light.as_str());
+    if !info.stones.is_empty() {
+        lines.pair("weight", weight_of_all(assembly));
     }
-    assembly.ring.iter().for_each(|ring| ring_rows(ring, &mut text));
-    if !assembly.scene.instances.is_empty() {
-        let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
-        let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
+    info.ring.iter().for_each(|ring| ring_rows(ring, &mut lines));
+    let bodies = bodies_of_scene(info);
+    let mut text = heading(&info.file, &info.name);
+    if !lines.is_empty() {
+        text += &format!("{lines}\n");
     }
-    for (stone, place) in assembly.scene.instances.iter().zip(&assembly.places) {
-        let weight = stone.carats(assembly.scene.unit_mm);
-        let weight = weight.map_or("not known".to_owned(), |carats| format!("{carats:.3} ct"));
-        let (cut, material, diameter) = (&stone.label, &stone.material.name, place.diameter_mm);
-        let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
-        // The height is rounded first, so that a tiny negative number does not print as -0.000.
-        let at = (1e3 * place.at_mm).round() / 1e3 + 0.0;
-        let _ = write!(text, "{:>9}{:>9}{:>9}", fixed(at.x, 3), fixed(at.y, 3), fixed(at.z, 3));
-    }
-    for metal in &assembly.scene.metals {
-        let (mesh, name, roughness) = (&metal.label, metal.metal.name(), metal.roughness);
-        let _ = write!(text, "\n  {mesh:<20}{name:<20}roughness {roughness}");
+    if !bodies.is_empty() {
+        text += &format!("\n{bodies}");
     }
     text
 }
 
-fn ring_json(ring: &MadeRing) -> Value {
-    let mounting = &ring.mounting;
-    let volume_mm3 = mounting.volume_mm3();
-    let alloys = alloys(ring).map(|alloy| (alloy.name.to_owned(), json!(alloy.grams(volume_mm3))));
-    json!({
-        "metal": ring.metal.name(),
-        "volume_mm3": volume_mm3,
-        "grams": alloys.collect::<serde_json::Map<_, _>>(),
-        "culet_height_mm": mounting.culet_height_mm,
-        "small_gap_mm": mounting.small_gap_mm,
-    })
+/// Returns a table of the stones of a scene, and of its metal.
+fn bodies_of_scene(info: &SceneInfo) -> Table {
+    let axis = |head: &'static str| Column::right(head, 9).digits(3);
+    let columns = [
+        Column::left("cut", 20),
+        Column::left("material", 20),
+        Column::right("mm", 8).digits(3),
+        Column::right("weight", 12),
+        axis("x mm"),
+        axis("y mm"),
+        axis("z mm"),
+    ];
+    let table = if info.stones.is_empty() { Table::new(columns) } else { Table::headed(columns) };
+    let mut table = table.indented(2);
+    for stone in &info.stones {
+        let weight = stone.carats.map_or("not known".to_owned(), |carats| format!("{carats:.3} ct"));
+        let kind = [stone.cut.as_str().into(), stone.material.as_str().into(), stone.diameter_mm.into()];
+        let at = stone.at_mm.map(|at| TableCell::Number((1e3 * at).round() / 1e3));
+        table.row(kind.into_iter().chain([weight.into()]).chain(at));
+    }
+    for metal in &info.metals {
+        let roughness = format!("roughness {}", metal.roughness);
+        table.row([metal.mesh.as_str().into(), metal.metal.as_str().into(), roughness.into()]);
+    }
+    table
 }
 
-fn ring_rows(ring: &MadeRing, text: &mut String) {
-    let mounting = &ring.mounting;
-    let volume_mm3 = mounting.volume_mm3();
-    let _ = writeln!(text, "  {:<28}{volume_mm3:.1} mm³", "metal of the ring");
-    for alloy in alloys(ring) {
-        let _ = writeln!(text, "  {:<28}{:.2} g", format!("in {}", alloy.name), alloy.grams(volume_mm3));
+fn ring_rows(ring: &RingInfo, lines: &mut Table) {
+    lines.pair("metal of the ring", format!("{:.1} mm³", ring.volume_mm3));
+    for (alloy, grams) in ring.grams.iter() {
+        lines.pair(&format!("in {alloy}"), format!("{grams:.2} g"));
     }
-    if let Some(height) = mounting.culet_height_mm {
-        let _ = writeln!(text, "  {:<28}{} mm", "culet above the finger", fixed(height, 2));
+    if let Some(height) = ring.culet_height_mm {
+        lines.pair("culet above the finger", format!("{} mm", fixed(height, 2)));
     }
-    if let Some(gap) = mounting.small_gap_mm {
-        let _ = writeln!(text, "  {:<28}{} mm", "gap between small stones", fixed(gap, 2));
+    if let Some(gap) = ring.small_gap_mm {
+        lines.pair("gap between small stones", format!("{} mm", fixed(gap, 2)));
     }
-}
-
-/// Returns the alloys of which a ring of this metal may be made.
-fn alloys(ring: &MadeRing) -> impl Iterator<Item = &'static Alloy> {
-    ALLOYS.iter().filter(|alloy| alloy.metal == ring.metal)
 }
 
 /// Returns the first line of a table: the file and the name of the stone or scene in it, only once where they are equal.
@@ -223,108 +185,6 @@ fn weight_of_all(assembly: &Assembly) -> String {
     weight(assembly.carats(), unknown.map_or("a stone", |material| &material.name))
 }
 
-fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
-    let mut value = json!({
-        "file": specimen.path,
-        "name": specimen.design.name,
-        "source": specimen.design.source,
-        "notes": specimen.design.notes,
-        "material": specimen.material.name,
-        "diameter_mm": specimen.design.diameter_mm,
-        "carats": specimen.carats(),
-    });
-    if specimen.design.cut.family().is_some() {
-        let number = |value, unit| if unit == Unit::Count { json!(value as i64) } else { json!(value) };
-        let given = specimen.design.cut.given().map(|(row, value)| (row.key, number(value, row.unit)));
-        value["given"] = given.collect();
-    }
-    if let Cut::RoundBrilliant(brilliant) = &specimen.design.cut {
-        let derived = brilliant.derived().map_err(|e| Failure::Input(format!("{}: {e}", specimen.path)))?;
-        value["derived"] = json!(derived);
-    }
-    if !specimen.bodies.is_empty() {
-        value["bodies"] = specimen.bodies.iter().map(body_json).collect();
-    }
-    let (low, high) = specimen.solid().bounds();
-    value["volume"] = json!(specimen.solid().volume());
-    value["size"] = json!((high - low).to_array());
-    if let Body::Mesh(mesh) = &*specimen.body {
-        value["triangles"] = json!(mesh.surface().triangles.len());
-        value["corners"] = json!(mesh.vertices().len());
-        if let Some(heights) = MeshHeights::of(mesh) {
-            value["heights"] = json!(heights);
-        }
-        let mut tiers: Vec<(&str, usize)> = vec![];
-        for name in mesh.facet_names().into_iter().map(tier_stem) {
-            match tiers.iter_mut().find(|(tier, _)| *tier == name) {
-                Some((_, count)) => *count += 1,
-                None => tiers.push((name, 1)),
-            }
-        }
-        if !tiers.is_empty() {
-            let tier = |(name, facets)| json!({ "name": name, "facets": facets });
-            value["tiers"] = tiers.into_iter().map(tier).collect();
-        }
-    }
-    let Ok(stone) = specimen.stone() else { return Ok(value) };
-    let polytope = &stone.polytope;
-    value["measured"] = json!(ProportionReport::of_cut(&specimen.design.cut, polytope, stone.names()));
-    value["surface_area"] = json!(polytope.surface_area());
-    value["silhouette_area"] = json!(polytope.silhouette_area(glam::DVec3::Z));
-    value["edges"] = json!(polytope.edge_count());
-    value["vertices"] = json!(polytope.vertices().iter().map(|v| v.to_array()).collect::<Vec<_>>());
-    let facets = polytope.facets().iter().zip(stone.names());
-    value["facets"] =
-        facets.map(|(facet, name)| facet_json(polytope, facet, name, specimen.error(name))).collect();
-    Ok(value)
-}
-
-fn body_json(body: &MeshBody) -> Value {
-    json!({
-        "number": body.number,
-        "name": body.name,
-        "triangles": body.triangles,
-        "is_closed": body.number.is_some(),
-        "extent": body.extent.to_array(),
-        "inside": body.within,
-        "is_read": body.is_read,
-    })
-}
-
-fn facet_json(polytope: &Polytope, facet: &Facet, name: &str, error: Option<&FacetError>) -> Value {
-    let n = facet.plane.normal;
-    let across = n.truncate();
-    let mut value = json!({
-        "name": name,
-        "normal": n.to_array(),
-        // Adding 0.0 turns -0.0 into 0.0, for planes through the origin.
-        "offset": facet.plane.offset + 0.0,
-        "slope_deg": across.length().atan2(n.z.abs()).to_degrees(),
-        "azimuth_deg": azimuth_deg(across),
-        "area": polytope.facet_area(facet),
-        "corners": facet.outline,
-    });
-    if let Some(error) = error {
-        value["slope_error_deg"] = json!(error.slope_deg);
-        value["azimuth_error_deg"] = json!(error.azimuth_deg);
-        value["may_be_several"] = json!(error.is_bent);
-    }
-    if facet.frosting > 0.0 {
-        value["frosting"] = json!(facet.frosting);
-    }
-    value
-}
-
-/// Returns the azimuth of a normal's part in the girdle plane, in degrees from 0 to below 360; 0 for a level facet.
-fn azimuth_deg(across: DVec2) -> f64 {
-    if across.length() <= LEVEL {
-        return 0.0;
-    }
-    let azimuth = across.to_angle().to_degrees().rem_euclid(360.0);
-    // An angle that rounding has put just below 0 becomes 360, or just less.
-    if 360.0 - azimuth < ROUNDING_DEG { 0.0 } else { azimuth }
-}
-
 /// Formats an azimuth in degrees. An azimuth that rounds to 360 is printed as 0.
 fn shown_azimuth(azimuth_deg: f64) -> String {
     let text = fixed(azimuth_deg, 4);
@@ -332,112 +192,121 @@ fn shown_azimuth(azimuth_deg: f64) -> String {
 }
 
 /// Returns the lines below the heading: the numbers of the design, the measured proportions, and the tiers.
-fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
-    let mut text = String::new();
-    let mut line = |key: &str, what: String| {
-        let _ = writeln!(text, "  {key:<28}{what}");
+fn table(specimen: &LoadedSpecimen, info: &StoneInfo) -> String {
+    let mut lines = Table::of_pairs();
+    if let Some(source) = &info.source {
+        lines.pair("source", source.as_str());
+    }
+    let material = match &specimen.design.material {
+        MaterialRef::Index(index) => format!("index {}", rounded(*index, 4)),
+        _ => info.material.clone(),
     };
-    if let Some(source) = &specimen.design.source {
-        line("source", source.clone());
+    lines.pair("material", material);
+    lines.pair("diameter", format!("{} mm", rounded(info.diameter_mm, 4)));
+    lines.pair("weight", weight(info.carats, &info.material));
+    proportions_of_cut(&specimen.design.cut, info, &mut lines);
+    match &info.faceted {
+        Some(faceted) => {
+            numbers_of_facets(&specimen.design.cut, info, faceted, &mut lines);
+            format!("{lines}\n\n{}", tiers(&faceted.measured.tiers))
+        }
+        None => {
+            size_of_solid(info, &mut lines);
+            format!("{lines}\n\n  {}", why_unfaceted(info.mesh.as_ref()))
+        }
     }
-    line(
-        "material",
-        match &specimen.design.material {
-            MaterialRef::Index(index) => format!("index {}", rounded(*index, 4)),
-            _ => specimen.material.name.clone(),
-        },
-    );
-    line("diameter", format!("{} mm", rounded(specimen.design.diameter_mm, 4)));
-    line("weight", weight(specimen.carats(), &specimen.material.name));
-    proportions_of_cut(&specimen.design.cut, value, &mut line);
-    let Ok(stone) = specimen.stone() else {
-        let why = size_of_solid(specimen, value, &mut line);
-        let _ = write!(text, "\n  {why}");
-        return text;
+}
+
+/// Adds a line for each proportion that the cut's file gives, and for each that follows from them.
+fn proportions_of_cut(cut: &Cut, info: &StoneInfo, lines: &mut Table) {
+    let unit = |key: &str| match cut.proportion(key).map(|row| row.unit) {
+        Some(Unit::Degrees) => " deg".to_owned(),
+        unit => unit.map(|unit| unit.to_string()).unwrap_or_default(),
     };
-    let polytope = &stone.polytope;
-    let report = ProportionReport::of_cut(&specimen.design.cut, polytope, stone.names());
-    if specimen.design.cut.brilliant().is_none() {
-        let is_given = |key: &str| value["given"].get(key).is_some();
-        proportions(&report, is_given, &mut line);
-        match specimen.design.cut {
-            Cut::Tiers(_) => ratios(&report.along_axes, &mut line),
-            _ => depths(&report, is_given, &mut line),
-        }
+    for (key, number) in info.given.iter().flat_map(|given| given.iter()) {
+        lines.pair(&key.replace('_', " "), format!("{}{}", rounded(number.value(), 4), unit(key)));
     }
-    let (facets, vertices) = (polytope.facets().len(), polytope.vertices().len());
-    line("facets, edges, vertices", format!("{facets}, {}, {vertices}", polytope.edge_count()));
-    line("volume", format!("{:.6} girdle radii³", polytope.volume()));
-    line("surface area", format!("{:.6} girdle radii²", polytope.surface_area()));
-    tiers(&report, &mut text);
-    text
-}
-
-/// Writes a line for each proportion that the cut's file gives, and for each that follows from them.
-fn proportions_of_cut(cut: &Cut, value: &Value, line: &mut impl FnMut(&str, String)) {
-    for group in ["given", "derived"] {
-        for (key, number) in value[group].as_object().into_iter().flatten() {
-            let unit = match cut.proportion(key).map(|row| row.unit) {
-                Some(Unit::Degrees) => " deg".to_owned(),
-                unit => unit.map(|unit| unit.to_string()).unwrap_or_default(),
-            };
-            let number = number.as_f64().unwrap_or(f64::NAN);
-            let digits = if group == "given" { rounded(number, 4) } else { fixed(number, 4) };
-            let mark = if group == "given" { "" } else { "   (derived)" };
-            line(&key.replace('_', " "), format!("{digits}{unit}{mark}"));
-        }
+    for (key, number) in info.derived.iter().flat_map(|derived| derived.by_key()) {
+        lines.pair(&key.replace('_', " "), format!("{}{}   (derived)", fixed(number, 4), unit(key)));
     }
 }
 
-/// Writes the lines of a solid that is no convex stone, and returns why it is traced without facets.
-fn size_of_solid(
-    specimen: &LoadedSpecimen,
-    value: &Value,
-    line: &mut impl FnMut(&str, String),
-) -> &'static str {
-    let (low, high) = specimen.solid().bounds();
-    let [x, y, z] = (high - low).to_array();
-    line("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
-    let is_mesh = matches!(&*specimen.body, Body::Mesh(_));
-    if is_mesh {
-        line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
-        for (key, height) in value["heights"].as_object().into_iter().flatten() {
-            line(&key.replace('_', " "), format!("{:.2} %", height.as_f64().unwrap_or(f64::NAN)));
+/// Adds the lines of a convex stone between planes.
+fn numbers_of_facets(cut: &Cut, info: &StoneInfo, faceted: &FacetedInfo, lines: &mut Table) {
+    let report = &faceted.measured;
+    if cut.brilliant().is_none() {
+        let is_given = |key: &str| info.given.as_ref().is_some_and(|given| given.get(key).is_some());
+        proportions(report, is_given, lines);
+        match cut {
+            Cut::Tiers(_) => ratios(&report.along_axes, lines),
+            _ => depths(report, is_given, lines),
         }
     }
-    line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
-    for tier in value["tiers"].as_array().into_iter().flatten() {
-        let facets = if tier["facets"] == 1 { "facet" } else { "facets" };
-        line(tier["name"].as_str().unwrap_or_default(), format!("{} {facets}", tier["facets"]));
+    let (facets, vertices) = (faceted.facets.len(), faceted.vertices.len());
+    lines.pair("facets, edges, vertices", format!("{facets}, {}, {vertices}", faceted.edges));
+    lines.pair("volume", format!("{:.6} girdle radii³", info.volume));
+    lines.pair("surface area", format!("{:.6} girdle radii²", faceted.surface_area));
+}
+
+/// Adds the lines of a solid that is no convex stone.
+fn size_of_solid(info: &StoneInfo, lines: &mut Table) {
+    let [x, y, z] = info.size;
+    lines.pair("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
+    if let Some(mesh) = &info.mesh {
+        lines.pair("triangles, vertices", format!("{}, {}", mesh.triangles, mesh.corners));
     }
-    match (is_mesh, value.get("tiers")) {
-        (true, Some(_)) => "not convex: traced as triangles",
-        (true, None) => "traced as triangles: it has no facets to list",
-        (false, _) => "curved: it has no facets to list",
+    if let Some(heights) = info.mesh.as_ref().and_then(|mesh| mesh.heights) {
+        for (name, percent) in [
+            ("crown height", heights.crown_height),
+            ("girdle height", heights.girdle_height),
+            ("pavilion depth", heights.pavilion_depth),
+            ("total depth", heights.total_depth),
+        ] {
+            lines.pair(name, format!("{percent:.2} %"));
+        }
+    }
+    lines.pair("volume", format!("{:.6} girdle radii³", info.volume));
+    for tier in info.mesh.iter().flat_map(|mesh| &mesh.tiers) {
+        let facets = if tier.facets == 1 { "facet" } else { "facets" };
+        lines.pair(&tier.name, format!("{} {facets}", tier.facets));
     }
 }
 
-/// Returns a line for each facet, below a line of headings; `None` of a body without facets to list.
-fn facet_table(value: &Value) -> Option<String> {
-    let facets = value["facets"].as_array()?;
-    let is_scan = facets.iter().any(|facet| facet["slope_error_deg"].is_number());
-    let mut text = format!("  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
+/// Says why a solid is traced without facets.
+fn why_unfaceted(mesh: Option<&MeshInfo>) -> &'static str {
+    match mesh {
+        Some(mesh) if !mesh.tiers.is_empty() => "not convex: traced as triangles",
+        Some(_) => "traced as triangles: it has no facets to list",
+        None => "curved: it has no facets to list",
+    }
+}
+
+/// Returns a table of the facets.
+fn facet_table(facets: &[FacetInfo]) -> Table {
+    let is_scan = facets.iter().any(|facet| facet.uncertainty.is_some());
+    let mut columns = vec![
+        Column::left("facet", 18),
+        Column::right("slope deg", 10).digits(4),
+        Column::right("azimuth", 11),
+        Column::right("area", 12).digits(6),
+    ];
     if is_scan {
-        let _ = write!(text, "{:>14}{:>14}", "slope error", "azimuth error");
+        columns.push(Column::right("slope error", 14).digits(4));
+        columns.push(Column::right("azimuth error", 14).digits(4));
     }
+    let mut table = Table::headed(columns).indented(2);
     for facet in facets {
-        let number = |key: &str| facet[key].as_f64().unwrap_or(f64::NAN);
-        let name = facet["name"].as_str().unwrap_or_default();
-        let (slope, azimuth) = (number("slope_deg"), shown_azimuth(number("azimuth_deg")));
-        let area = number("area");
-        let _ = write!(text, "\n  {name:<18}{slope:>10.4}{azimuth:>11}{area:>12.6}");
-        if is_scan {
-            let error =
-                |key: &str| facet[key].as_f64().map_or_else(|| "-".to_owned(), |error| fixed(error, 4));
-            let _ = write!(text, "{:>14}{:>14}", error("slope_error_deg"), error("azimuth_error_deg"));
-        }
+        let error = facet.uncertainty;
+        table.row([
+            facet.name.as_str().into(),
+            facet.slope_deg.into(),
+            shown_azimuth(facet.azimuth_deg).into(),
+            facet.area.into(),
+            error.map(|error| error.slope_error_deg).into(),
+            error.and_then(|error| error.azimuth_error_deg).into(),
+        ]);
     }
-    Some(text)
+    table
 }
 
 /// Returns the name of a measured proportion, which is marked as measured where the design gives one of this name.
@@ -445,25 +314,21 @@ fn measured(key: &str, is_given: impl Fn(&str) -> bool) -> String {
     if is_given(&key.replace(' ', "_")) { format!("{key}, measured") } else { key.to_owned() }
 }
 
-/// Writes length and table of a stone.
-fn proportions(
-    report: &ProportionReport,
-    is_given: impl Fn(&str) -> bool,
-    line: &mut impl FnMut(&str, String),
-) {
+/// Adds length and table of a stone.
+fn proportions(report: &ProportionReport, is_given: impl Fn(&str) -> bool, lines: &mut Table) {
     // Its name differs from that of the design's own number, which may be below 1, or along the axis.
-    line("outline length to width", format!("{:.4}", report.length_to_width));
+    lines.pair("outline length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
     let table = match report.table_corners > 0.0 {
         true => format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),
         false => "none".to_owned(),
     };
-    line(&measured("table", is_given), table);
+    lines.pair(&measured("table", is_given), table);
 }
 
-/// Writes the depths of a stone, as designs give them.
-fn depths(report: &ProportionReport, is_given: impl Fn(&str) -> bool, line: &mut impl FnMut(&str, String)) {
-    let mut line = |key: &str, what: String| line(&measured(key, &is_given), what);
+/// Adds the depths of a stone, as designs give them.
+fn depths(report: &ProportionReport, is_given: impl Fn(&str) -> bool, lines: &mut Table) {
+    let mut line = |key: &str, what: String| lines.pair(&measured(key, &is_given), what);
     line("crown height", format!("{:.2} %", report.crown_height));
     let along = report.girdle_edges.map(|edges| spread(edges, 2));
     // Where the girdle is as thick all round, its edges are level.
@@ -474,26 +339,33 @@ fn depths(report: &ProportionReport, is_given: impl Fn(&str) -> bool, line: &mut
     line("total depth", format!("{:.2} %", report.total_depth));
 }
 
-/// Writes the ratios that cutters' diagrams print, which count all depths in W.
-fn ratios(along: &AlongAxes, line: &mut impl FnMut(&str, String)) {
+/// Adds the ratios that cutters' diagrams print, which count all depths in W.
+fn ratios(along: &AlongAxes, lines: &mut Table) {
     let [t, u] = along.table.map(|percent| percent / 100.0);
     let mut list = |names: &str, of: &[f64]| {
         let texts: Vec<String> = of.iter().map(|ratio| fixed(*ratio, 3)).collect();
-        line(names, texts.join(", "));
+        lines.pair(names, texts.join(", "));
     };
     list("L/W, T/W, U/W", &[along.length_to_width, t, u]);
     let AlongAxes { pavilion_to_width, girdle_to_width, crown_to_width, height_to_width, .. } = *along;
     list("P/W, G/W, C/W, H/W", &[pavilion_to_width, girdle_to_width, crown_to_width, height_to_width]);
 }
 
-fn tiers(report: &ProportionReport, text: &mut String) {
-    let _ =
-        write!(text, "\n  {:<18}{:<10}{:>7}{:>24}{:>28}", "tier", "zone", "facets", "slope deg", "distance");
-    for tier in &report.tiers {
+fn tiers(tiers: &[TierReport]) -> Table {
+    let columns = [
+        Column::left("tier", 18),
+        Column::left("zone", 10),
+        Column::right("facets", 7),
+        Column::right("slope deg", 24),
+        Column::right("distance", 28),
+    ];
+    let mut table = Table::headed(columns).indented(2);
+    for tier in tiers {
         let (slope, distance) = (spread(tier.slope_deg, 2), spread(tier.distance, 4));
-        let _ =
-            write!(text, "\n  {:<18}{:<10}{:>7}{slope:>24}{distance:>28}", tier.name, tier.zone, tier.facets);
+        let name = tier.name.as_str().into();
+        table.row([name, tier.zone.name().into(), tier.facets.into(), slope.into(), distance.into()]);
     }
+    table
 }
 
 /// Formats a mean with this many decimal places, followed by its range unless both ends look the same at that precision.
@@ -509,10 +381,6 @@ mod tests {
 
     #[test]
     fn rounding_shows_neither_a_full_turn_nor_a_minus_before_nought() {
-        for angle in [-1e-17, -1e-12, 0.0, 1e-17] {
-            assert!(azimuth_deg(DVec2::from_angle(angle)) < 1e-9, "{angle}");
-        }
-        assert!((azimuth_deg(DVec2::from_angle(-1e-6)) - 359.999_942_7).abs() < 1e-6);
         assert_eq!([359.999_99, 359.99, 0.0].map(shown_azimuth), ["0.0000", "359.9900", "0.0000"]);
         let flat = Spread { least: -1e-17, mean: -1e-18, most: 1e-17 };
         assert_eq!(spread(flat, 4), "0.0000");

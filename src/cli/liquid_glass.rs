@@ -10,6 +10,7 @@ use super::progress::WorkProgress;
 use brillianteer_base::Failure;
 use brillianteer_files::{STANDARD, is_standard};
 use brillianteer_optics::linear_from_encoded;
+use brillianteer_paper::table::{Column, Table};
 use brillianteer_paper::{background, write_linear_exr, write_rgba_png};
 use brillianteer_picture::liquid_glass::{Cost, GlassPane, LightFrom, PaneQuality, Shifts, layer, pane};
 use brillianteer_picture::{Develop, Linear, develop};
@@ -289,20 +290,16 @@ fn beside(left: &Linear, right: &Linear) -> Linear {
 
 fn figures(cost: &Cost) -> String {
     let Cost { mean_difference, psnr_db, pane, traced, apart, fringe, behind, blind } = cost;
-    let line = |what: &str, Shifts { mean, greatest }: &Shifts| {
-        format!("{what:<36}mean {mean:7.2} px   greatest {greatest:7.2} px")
-    };
-    [
-        line("drawn: background is shifted by", pane),
-        line("traced: background is shifted by", traced),
-        line("distance of the places shown", apart),
-        format!(
-            "{:<36}drawn {:6.2} px   traced {:9.2} px",
-            "distance of red and blue, mean", fringe[0], fringe[1]
-        ),
-        format!("{:<36}{:.4} of white, {psnr_db:.1} dB", "mean difference in linear light", mean_difference),
-        format!("{:<36}{:.1} %", "traced light from the background", 100.0 * behind),
-        format!("{:<36}{:.1} % of the pane", "traced, shows no background", 100.0 * blind),
-    ]
-    .join("\n")
+    let shifts =
+        |Shifts { mean, greatest }: &Shifts| format!("mean {mean:7.2} px   greatest {greatest:7.2} px");
+    let fringes = format!("drawn {:6.2} px   traced {:9.2} px", fringe[0], fringe[1]);
+    let mut table = Table::new([Column::left("", 36), Column::text("")]);
+    table.pair("drawn: background is shifted by", shifts(pane));
+    table.pair("traced: background is shifted by", shifts(traced));
+    table.pair("distance of the places shown", shifts(apart));
+    table.pair("distance of red and blue, mean", fringes);
+    table.pair("mean difference in linear light", format!("{mean_difference:.4} of white, {psnr_db:.1} dB"));
+    table.pair("traced light from the background", format!("{:.1} %", 100.0 * behind));
+    table.pair("traced, shows no background", format!("{:.1} % of the pane", 100.0 * blind));
+    table.to_string()
 }

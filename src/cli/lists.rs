@@ -1,17 +1,17 @@
 //! `materials`, `cuts`, `scenes`, `scopes`, `lights`: list the items that the program knows by name.
 
-use super::console::{json, print};
+use super::console::{print, print_json};
 use brillianteer_base::Failure;
 use brillianteer_files::assembly::stone_count;
 use brillianteer_files::library::{CUTS, SCENES, cut, scene};
 use brillianteer_files::{cut_file, light_file, scene_file, scope_file};
-use brillianteer_optics::{line, materials};
+use brillianteer_optics::{Material, line, materials};
 use brillianteer_paper::lighting;
+use brillianteer_paper::table::{Column, Table};
 use brillianteer_picture::{Picture, named, names};
-use brillianteer_scene::{LIGHTS, Scope, light};
+use brillianteer_scene::{Band, LIGHTS, Scope, light};
 use clap::Args;
-use serde_json::{Value, json};
-use std::fmt::Write;
+use serde::Serialize;
 use std::path::Path;
 
 #[derive(Debug, Args)]
@@ -21,30 +21,60 @@ pub struct List {
     json: bool,
 }
 
+/// A material that the program knows.
+#[derive(Serialize)]
+struct ListedMaterial<'a> {
+    name: &'a str,
+    description: &'a str,
+    /// The index in sodium light.
+    #[serde(rename = "n_D")]
+    n_d: f64,
+    /// The index at Fraunhofer G less that at B.
+    #[serde(rename = "dispersion_B_G")]
+    dispersion_b_g: f64,
+    /// The publication of the dispersion.
+    source: &'a str,
+    /// The wavelengths for which it holds, nm.
+    valid_nm: Option<(f64, f64)>,
+    /// The density, g/cm³.
+    density: Option<f64>,
+    /// True where the colour was chosen for its looks.
+    colour_is_illustrative: bool,
+}
+
+impl<'a> ListedMaterial<'a> {
+    fn of(material: &'a Material) -> Self {
+        Self {
+            name: &material.name,
+            description: &material.description,
+            n_d: material.index(line::SODIUM_D),
+            dispersion_b_g: material.dispersion.dispersion_b_g(),
+            source: &material.source,
+            valid_nm: material.valid_nm,
+            density: material.density,
+            colour_is_illustrative: material.colour_is_illustrative,
+        }
+    }
+}
+
 impl List {
     pub fn materials(&self) -> Result<(), Failure> {
+        let all: Vec<ListedMaterial> = materials().iter().map(ListedMaterial::of).collect();
         if self.json {
-            let entry = |m: &brillianteer_optics::Material| {
-                json!({
-                    "name": m.name,
-                    "description": m.description,
-                    "n_D": m.index(line::SODIUM_D),
-                    "dispersion_B_G": m.dispersion.dispersion_b_g(),
-                    "source": m.source,
-                    "valid_nm": m.valid_nm,
-                    "density": m.density,
-                    "colour_is_illustrative": m.colour_is_illustrative,
-                })
-            };
-            return print(&json(&Value::Array(materials().iter().map(entry).collect())));
+            return print_json(&all);
         }
-        let mut text = format!("{:<20}{:>8}{:>9}{:>8}  {}", "material", "n_D", "B-G", "g/cm³", "source");
-        for m in materials() {
-            let (n, b_g) = (m.index(line::SODIUM_D), m.dispersion.dispersion_b_g());
-            let density = m.density.map_or("-".into(), |d| format!("{d:.2}"));
-            let _ = write!(text, "\n{:<20}{n:>8.4}{b_g:>9.4}{density:>8}  {}", m.name, m.source);
+        let mut table = Table::headed([
+            Column::left("material", 20),
+            Column::right("n_D", 8).digits(4),
+            Column::right("B-G", 9).digits(4),
+            Column::right("g/cm³", 8).digits(2),
+            Column::text("source").after(2),
+        ]);
+        for each in all {
+            let ListedMaterial { name, n_d, dispersion_b_g, density, source, .. } = each;
+            table.row([name.into(), n_d.into(), dispersion_b_g.into(), density.into(), source.into()]);
         }
-        print(&text)
+        print(&table.to_string())
     }
 }
 
@@ -57,6 +87,15 @@ pub struct Cuts {
     json: bool,
 }
 
+/// A cut that comes with the program.
+#[derive(Serialize)]
+struct ListedCut {
+    name: &'static str,
+    title: String,
+    /// The publication; empty where there is none.
+    source: String,
+}
+
 impl Cuts {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(name) = &self.name {
@@ -67,14 +106,14 @@ impl Cuts {
         let mut rows = vec![];
         for (name, text) in CUTS {
             let design = cut_file::parse(text, name)?;
-            rows.push((name, design.name, design.source.unwrap_or_default()));
+            rows.push(ListedCut { name, title: design.name, source: design.source.unwrap_or_default() });
         }
         if self.json {
-            let entry = |(name, title, source)| json!({ "name": name, "title": title, "source": source });
-            return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
+            return print_json(&rows);
         }
-        let line = |(name, title, source)| format!("{name:<18}{title:<24}{source}");
-        print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
+        let mut table = Table::new([Column::left("", 18), Column::left("", 24), Column::text("")]);
+        rows.into_iter().for_each(|row| table.row([row.name.into(), row.title.into(), row.source.into()]));
+        print(&table.to_string())
     }
 }
 
@@ -87,6 +126,15 @@ pub struct Scenes {
     json: bool,
 }
 
+/// A scene that comes with the program.
+#[derive(Serialize)]
+struct ListedScene {
+    name: &'static str,
+    title: String,
+    /// The number of stones.
+    stones: usize,
+}
+
 impl Scenes {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(name) = &self.name {
@@ -97,16 +145,17 @@ impl Scenes {
         let mut rows = vec![];
         for (name, text) in SCENES {
             let scene = scene_file::parse(text, name, None)?;
-            rows.push((name, stone_count(Path::new(name), &scene)?, scene.name));
+            rows.push(ListedScene { name, stones: stone_count(Path::new(name), &scene)?, title: scene.name });
         }
         if self.json {
-            let entry = |(name, stones, title)| json!({ "name": name, "title": title, "stones": stones });
-            return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
+            return print_json(&rows);
         }
-        let line = |(name, stones, title)| {
-            format!("{name:<14}{title:<20}{stones} {}", if stones == 1 { "stone" } else { "stones" })
-        };
-        print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
+        let mut table = Table::new([Column::left("", 14), Column::left("", 20), Column::text("")]);
+        for ListedScene { name, title, stones } in rows {
+            let count = format!("{stones} {}", if stones == 1 { "stone" } else { "stones" });
+            table.row([name.into(), title.into(), count.into()]);
+        }
+        print(&table.to_string())
     }
 }
 
@@ -123,14 +172,16 @@ impl Scopes {
     pub fn run(&self) -> Result<(), Failure> {
         let all = || names().into_iter().filter_map(scope);
         if self.json {
-            return print(&json(&json!(all().collect::<Vec<_>>())));
+            return print_json(&all().collect::<Vec<_>>());
         }
         let Some(name) = &self.name else {
-            let line = |scope: Scope| {
-                let band = |b: &brillianteer_scene::Band| format!("{} from {}", b.name, b.from);
-                format!("{:<14}{}", scope.name, scope.bands.iter().map(band).collect::<Vec<_>>().join(", "))
-            };
-            return print(&all().map(line).collect::<Vec<_>>().join("\n"));
+            let mut table = Table::new([Column::left("", 14), Column::text("")]);
+            for scope in all() {
+                let band = |band: &Band| format!("{} from {}", band.name, band.from);
+                let bands: Vec<String> = scope.bands.iter().map(band).collect();
+                table.pair(&scope.name, bands.join(", "));
+            }
+            return print(&table.to_string());
         };
         let known = || names().into_iter().filter(|n| scope(n).is_some()).collect::<Vec<_>>().join(", ");
         let scope =
@@ -160,11 +211,12 @@ impl Lights {
     pub fn run(&self) -> Result<(), Failure> {
         let known = LIGHTS.into_iter().filter_map(light);
         if self.json {
-            return print(&json(&json!(known.collect::<Vec<_>>())));
+            return print_json(&known.collect::<Vec<_>>());
         }
         let Some(name) = &self.name else {
-            let line = |light: brillianteer_scene::Light| format!("{:<14}{}", light.name, light.description);
-            return print(&known.map(line).collect::<Vec<_>>().join("\n"));
+            let mut table = Table::new([Column::left("", 14), Column::text("")]);
+            known.for_each(|light| table.pair(&light.name, light.description));
+            return print(&table.to_string());
         };
         let light =
             light(&name.to_ascii_lowercase()).ok_or_else(|| Failure::Usage(lighting::unknown(name)))?;

@@ -1,25 +1,27 @@
 //! `measure`: prints the figures of one view.
 
-use super::batch::each_file;
-use super::console::{json, print, say};
-use super::estimate_list::{estimate_json, estimated, table_of_estimate};
+use super::batch::{each_file, print_json_of};
+use super::console::{OfFile, print, say};
+use super::estimate_list::{NotedEstimate, estimated, table_of_estimate};
 use super::hearts_list::{table_of_hearts, table_of_spread};
 use super::options::{LightOptions, ViewOptions, pupil_diameter, rock_angle, scoped};
 use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
-use brillianteer_math::{fixed, signed};
+use brillianteer_math::signed;
 use brillianteer_measure::{
-    ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
+    ClassDeviations, ErringDeviation, FaceUpSize, PatternSettings, facet_deviations, pupil_deg,
 };
 use brillianteer_paper::export::{
     FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure,
 };
+use brillianteer_paper::table::{Column, Table, TableCell};
 use brillianteer_picture::Scoped;
 use brillianteer_render::{Card, Renderer};
 use brillianteer_scene::{DomeLight, Glare};
 use clap::Args;
+use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -124,8 +126,7 @@ impl Measure {
                 );
             }
             if self.json {
-                let value = report.json(self.timing);
-                return print(&if self.files.len() > 1 { value.to_string() } else { json(&value) });
+                return print_json_of(&self.files, &report.figures(self.timing));
             }
             print(&table(&report, self.timing))
         })
@@ -148,11 +149,10 @@ impl Measure {
             }
             report
         };
-        if !self.json {
-            return print(&list_of_measures(&report));
+        if self.json {
+            return print_json_of(&self.files, &report.measures());
         }
-        let value = report.json();
-        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+        print(&list_of_measures(&report))
     }
 }
 
@@ -162,16 +162,12 @@ impl Measure {
         let refused = |why: &dyn std::fmt::Display| Failure::Input(format!("{}: {why}", specimen.path));
         let stone = specimen.convex_stone("deviations are measured of round brilliants, which are convex")?;
         let classes = facet_deviations(stone).map_err(|why| refused(&why))?;
-        if !self.json {
-            return print(&table_of_deviations(specimen, &classes));
+        let deviations: Vec<_> = classes.iter().map(|class| class.with_errors(&specimen.errors)).collect();
+        if self.json {
+            let result = FoundDeviations { deviations };
+            return print_json_of(&self.files, &OfFile { file: &specimen.path, result });
         }
-        let mut value = serde_json::json!({ "file": specimen.path, "deviations": classes });
-        for (each, value) in classes.iter().zip(value["deviations"].as_array_mut().into_iter().flatten()) {
-            let errors = DeviationErrors::of(specimen, each);
-            value["worst_azimuth"]["error_deg"] = serde_json::json!(errors.azimuth_deg);
-            value["worst_slope"]["error_deg"] = serde_json::json!(errors.slope_deg);
-        }
-        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+        print(&table_of_deviations(specimen, &deviations))
     }
 }
 
@@ -182,23 +178,21 @@ impl Measure {
             let progress = WorkProgress::new(&format!("measuring {}", viewing.file));
             hearts(viewing, &progress.watch())?
         };
-        if !self.json {
-            return print(&table_of_hearts(&report));
+        if self.json {
+            return print_json_of(&self.files, &report.figures());
         }
-        let value = report.json();
-        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+        print(&table_of_hearts(&report))
     }
 
     /// Prints a stone's spread as a table or as JSON.
     fn list_spread(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
         let stone = specimen.convex_stone("spread is measured of convex stones between planes")?;
         let size = FaceUpSize::of(&stone.polytope, specimen.unit_mm(), specimen.carats());
-        if !self.json {
-            return print(&table_of_spread(&specimen.path, &size));
+        if self.json {
+            let result = FoundSpread { material: &specimen.material.name, spread: size };
+            return print_json_of(&self.files, &OfFile { file: &specimen.path, result });
         }
-        let material = &specimen.material.name;
-        let value = serde_json::json!({ "file": specimen.path, "material": material, "spread": size });
-        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+        print(&table_of_spread(&specimen.path, &size))
     }
 }
 
@@ -206,58 +200,55 @@ impl Measure {
     /// Prints the class of a stone, estimated after GIA, as a table or as JSON.
     fn list_estimate(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
         let estimate = estimated(specimen)?;
-        if !self.json {
-            return print(&table_of_estimate(&specimen.path, &estimate));
+        if self.json {
+            let result = NotedEstimate::of(estimate);
+            return print_json_of(&self.files, &OfFile { file: &specimen.path, result });
         }
-        let value = estimate_json(&specimen.path, &estimate);
-        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+        print(&table_of_estimate(&specimen.path, &estimate))
     }
 }
 
-/// The standard errors of the deviations of the worst facets of a class; `None` where the stone was not found in a scan.
-struct DeviationErrors {
-    azimuth_deg: Option<f64>,
-    slope_deg: Option<f64>,
+/// The deviations of a stone's facets.
+#[derive(Serialize)]
+struct FoundDeviations {
+    deviations: Vec<ClassDeviations<ErringDeviation>>,
 }
 
-impl DeviationErrors {
-    fn of(specimen: &LoadedSpecimen, class: &ClassDeviations) -> Self {
-        let azimuth = |facet: &str| specimen.error(facet)?.azimuth_deg;
-        let slope = |facet: &str| Some(specimen.error(facet)?.slope_deg);
-        Self {
-            azimuth_deg: class.worst_azimuth.standard_error(azimuth),
-            slope_deg: class.worst_slope.standard_error(slope),
-        }
-    }
+/// The size of a stone for its weight.
+#[derive(Serialize)]
+struct FoundSpread<'a> {
+    /// The name of the material.
+    material: &'a str,
+    spread: FaceUpSize,
 }
 
 /// Formats deviations as a table, in degrees.
-fn table_of_deviations(specimen: &LoadedSpecimen, classes: &[ClassDeviations]) -> String {
+fn table_of_deviations(specimen: &LoadedSpecimen, classes: &[ClassDeviations<ErringDeviation>]) -> String {
     let (errors, wide) = match specimen.errors.is_empty() {
         true => ("", 24),
         false => (" ± its standard error", 34),
     };
-    let mut text = format!(
-        "{}: deviations in degrees, max - min and the worst facet{errors}\n\n{:<12}{:>9}",
-        specimen.path, "class", "azimuth"
-    );
-    let _ = write!(text, "{:>wide$}{:>9}{:>wide$}", "worst", "slope", "worst");
+    let mut table = Table::headed([
+        Column::left("class", 12),
+        Column::right("azimuth", 9).digits(3),
+        Column::right("worst", wide),
+        Column::right("slope", 9).digits(3),
+        Column::right("worst", wide),
+    ]);
+    let worst = |of: &ErringDeviation, spread: f64| match spread < NOT_SHOWN_DEG {
+        true => "-".to_owned(),
+        false => {
+            let error = of.error_deg.map_or(String::new(), |error| format!(" ± {error:.3}"));
+            format!("{} {}{error}", of.deviation.facet, signed(of.deviation.by_deg, 3))
+        }
+    };
     for each in classes {
-        let worst = |of: &FacetDeviation, spread: f64, error: Option<f64>| match spread < NOT_SHOWN_DEG {
-            true => "-".to_owned(),
-            false => {
-                let error = error.map_or(String::new(), |error| format!(" ± {error:.3}"));
-                format!("{} {}{error}", of.facet, signed(of.by_deg, 3))
-            }
-        };
-        let errors = DeviationErrors::of(specimen, each);
-        let turned = worst(&each.worst_azimuth, each.azimuth_spread_deg, errors.azimuth_deg);
-        let leant = worst(&each.worst_slope, each.slope_spread_deg, errors.slope_deg);
         let [azimuth, slope] = [each.azimuth_spread_deg, each.slope_spread_deg];
-        let [azimuth, slope] = [azimuth, slope].map(|spread| fixed(spread, 3));
-        let _ = write!(text, "\n{:<12}{azimuth:>9}{turned:>wide$}{slope:>9}{leant:>wide$}", each.class);
+        let turned = worst(&each.worst_azimuth, azimuth).into();
+        let leant = worst(&each.worst_slope, slope).into();
+        table.row([each.class.into(), azimuth.into(), turned, slope.into(), leant]);
     }
-    text
+    format!("{}: deviations in degrees, max - min and the worst facet{errors}\n\n{table}", specimen.path)
 }
 
 /// Spreads below this, degrees, are printed as 0, and then no facet is named as the worst.
@@ -266,27 +257,29 @@ const NOT_SHOWN_DEG: f64 = 5e-4;
 /// Formats measures as a table, in percent of the silhouette.
 fn list_of_measures(report: &MeasureReport) -> String {
     let MeasureReport { viewing, settings, measures, weighted_return } = report;
+    let mut table = Table::headed([
+        Column::left("% of face", 28),
+        Column::right("value", 9).digits(3),
+        Column::right("± at most", 10).digits(3),
+        Column::text("").after(1),
+    ]);
+    for (name, interval) in report.by_name() {
+        // A difference that is 0 except for rounding gets no sign.
+        let [value, error] = [interval.middle(), interval.error()].map(|part| (1e11 * part).round() / 1e9);
+        table.row([name.to_string().into(), value.into(), error.into()]);
+    }
+    if let Some(found) = weighted_return {
+        let [value, error] = [found.value, found.standard_error].map(|part| TableCell::Number(100.0 * part));
+        table.row(["wlr".into(), value, error, "(standard error)".into()]);
+    }
+    let head = settings.head_deg;
     let mut text = format!(
-        "{}: {}, {}, {}\n\n{:<28}{:>9}{:>10}\n",
+        "{}: {}, {}, {}\n\n{table}\n",
         viewing.file,
         viewing.specimen.design.name,
         viewing.specimen.material.with_index(viewing.medium.index),
         viewing.viewpoint.description(),
-        "% of face",
-        "value",
-        "± at most",
     );
-    for (name, interval) in report.by_name() {
-        // A difference that is 0 except for rounding gets no sign.
-        let [value, error] =
-            [interval.middle(), interval.error()].map(|part| (1e11 * part).round() / 1e9 + 0.0);
-        let _ = writeln!(text, "{:<28}{value:>9.3}{error:>10.3}", name.to_string());
-    }
-    if let Some(found) = weighted_return {
-        let [value, error] = [found.value, found.standard_error].map(|part| 100.0 * part);
-        let _ = writeln!(text, "{:<28}{value:>9.3}{error:>10.3} (standard error)", "wlr");
-    }
-    let head = settings.head_deg;
     let _ = write!(
         text,
         "\nThe head of obstruction, extinction and contrast has a half angle of {head}°; contrast is in percent of the mean \
@@ -338,29 +331,33 @@ fn table(report: &FigureReport, timing: bool) -> String {
         scope.name,
     );
     let errors = f.estimate.as_ref().map(|estimate| [estimate.standard_errors(), estimate.area_errors()]);
-    let mut line = |name: &str, [glare, light, area]: [String; 3], [of_light, of_area]: [String; 2]| {
-        let glare = Some(glare).filter(|_| has_glare);
-        let [of_light, of_area] = [of_light, of_area].map(|error| errors.as_ref().map(|_| error));
-        let columns = [(glare, 12), (Some(light), 12), (of_light, 8), (Some(area), 12), (of_area, 8)];
-        let columns = columns.into_iter().filter_map(|(text, width)| Some((text?, width)));
-        let columns: String = columns.map(|(text, width)| format!("{text:>width$}")).collect();
-        let _ = writeln!(text, "{}", format!("{name:<12}{columns}").trim_end());
+    let columns = [
+        (true, Column::left("% of face", 12)),
+        (has_glare, Column::right("glare", 12)),
+        (true, Column::right("transmitted", 12)),
+        (errors.is_some(), Column::right("± error", 8)),
+        (true, Column::right("strongest", 12)),
+        (errors.is_some(), Column::right("± error", 8)),
+    ];
+    let is_shown = columns.each_ref().map(|(is_shown, _)| *is_shown);
+    let columns = columns.into_iter().filter_map(|(is_shown, column)| is_shown.then_some(column.digits(3)));
+    let mut table = Table::headed(columns.collect::<Vec<_>>());
+    let mut line = |name: &str, values: [f64; 3], errors: Option<[f64; 2]>| {
+        let [glare, light, area] = values.map(|part| TableCell::Number(100.0 * part));
+        let error =
+            |which: usize| errors.map_or("".into(), |errors| TableCell::Number(100.0 * errors[which]));
+        let cells = [name.into(), glare, light, error(0), area, error(1)];
+        table.row(cells.into_iter().zip(is_shown).filter_map(|(cell, is_shown)| is_shown.then_some(cell)));
     };
-    let of = percent;
-    let heads = ["glare", "transmitted", "strongest"].map(String::from);
-    line("% of face", heads, ["± error", "± error"].map(String::from));
     for (i, band) in scope.bands.iter().enumerate().rev() {
-        let error = |which: usize| errors.as_ref().map_or(String::new(), |all| of(all[which][i]));
         let values = [f.surface[i], f.transmitted[i], f.strongest_exit_area[i]];
-        line(&band.name, values.map(of), [error(0), error(1)]);
+        line(&band.name, values, errors.as_ref().map(|[light, area]| [light[i], area[i]]));
     }
-    let mut row = |name: &str, values: [f64; 3]| line(name, values.map(of), [String::new(), String::new()]);
-    row("undecided", [0.0, 0.0, f.strongest_exit_undecided]);
+    line("undecided", [0.0, 0.0, f.strongest_exit_undecided], None);
     let sum = |zones: &[f64]| zones.iter().sum::<f64>();
-    row(
-        "sum",
-        [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area) + f.strongest_exit_undecided],
-    );
+    let areas = sum(&f.strongest_exit_area) + f.strongest_exit_undecided;
+    line("sum", [sum(&f.surface), sum(&f.transmitted), areas], None);
+    let _ = writeln!(text, "{table}");
     sums(report, &mut text);
     if timing {
         let _ = write!(text, " in {:.3} s", report.seconds);

@@ -1,8 +1,8 @@
 //! `optimise`: finds a better design by a goal, and prints which measures rose and which fell.
 
 use super::comments;
-use super::console::{print, say, written};
-use super::optimise_text::{json_value, text};
+use super::console::{OfFile, print, print_json, say, written};
+use super::optimise_text::text;
 use super::options::number;
 use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
@@ -18,7 +18,7 @@ use brillianteer_paper::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
 use brillianteer_render::SweepKey;
 use brillianteer_scene::Specimen;
 use brillianteer_search::{
-    DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
+    DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome, SearchSummary,
 };
 use clap::Args;
 use std::ops::ControlFlow;
@@ -191,7 +191,10 @@ impl OptimiseArguments {
         let kept = self.write(format, renamed(&outcome, search.objective().design()));
         let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
         match self.json {
-            true => print(&super::console::json(&json_value(&path, &search, &outcome, &others)))?,
+            true => {
+                let result = SearchSummary::of(&search, &outcome, &others);
+                print_json(&OfFile { file: &path, result })?;
+            }
             false => print(&text(&goal, &search, &outcome, &others))?,
         }
         kept?;

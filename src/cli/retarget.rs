@@ -1,20 +1,22 @@
 //! `retarget`: fits a design to another material, and measures the light of both.
 
 use super::comments;
-use super::console::{json, print, say, written};
+use super::console::{print, print_json, say, written};
 use super::options::{checked_wavelength, extrapolation, number};
 use super::specimen::{asked_material, note_colour};
 use super::specimen_options::SizeOptions;
 use brillianteer_base::Failure;
-use brillianteer_cut::{Design, RetargetError, RetargetRule, Retargeted, ScaleError, retarget};
+use brillianteer_cut::{
+    Design, RetargetError, RetargetRule, Retargeted, RetargetedTier, ScaleError, retarget,
+};
 use brillianteer_files::design_file::{self, DesignFormat};
-use brillianteer_math::fixed;
-use brillianteer_measure::Measured;
+use brillianteer_measure::{LightShares, Measured};
 use brillianteer_optics::line;
+use brillianteer_paper::table::{Column, Table, TableCell};
 use brillianteer_render::{MeasureError, MeasureOptions, measure};
 use brillianteer_scene::Specimen;
 use clap::{Args, ValueEnum};
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -74,6 +76,43 @@ struct MeasuredStone {
     carats: Option<f64>,
 }
 
+/// A design that was fitted to another material, and the light of both.
+#[derive(Serialize)]
+struct RetargetResult<'a> {
+    file: &'a str,
+    /// The name of the design.
+    name: &'a str,
+    /// The name of the old material.
+    from: &'a str,
+    /// The name of the new material.
+    to: &'a str,
+    /// The critical angles of both in sodium light, degrees.
+    critical_deg: [f64; 2],
+    /// The name of the main tier.
+    main: &'a str,
+    /// The factor of the tangents of its angle.
+    factor: f64,
+    /// The tiers that changed.
+    tiers: &'a [RetargetedTier],
+    /// Notes on the method, in sentences.
+    notes: &'a [String],
+    /// The wavelength of the light, nm; `None` where none was measured.
+    wavelength_nm: Option<f64>,
+    /// The light of the old design in both materials, and of the new one.
+    light: Vec<StoneLight<'a>>,
+}
+
+/// The light of one stone.
+#[derive(Serialize)]
+struct StoneLight<'a> {
+    /// The words that say which stone it is.
+    stone: &'a str,
+    #[serde(flatten)]
+    shares: LightShares,
+    /// The weight; `None` where the material's density is not known.
+    carats: Option<f64>,
+}
+
 impl RetargetArguments {
     fn rule(&self) -> Result<RetargetRule, Failure> {
         match (self.rule, self.side, self.factor) {
@@ -119,11 +158,10 @@ impl RetargetArguments {
             say(&format!("warning: {path}, fitted: {warning}"));
         }
         let light = if self.no_light { vec![] } else { self.light(&specimen, &made)? };
-        let text = match self.json {
-            true => json(&self.value(&path, (&specimen, &made), &found, &light)),
-            false => self.table(&path, (&specimen, &made), &found, &light),
-        };
-        print(&text)?;
+        match self.json {
+            true => print_json(&self.result(&path, (&specimen, &made), &found, &light))?,
+            false => print(&self.table(&path, (&specimen, &made), &found, &light))?,
+        }
         if let (Some(out), Some(format)) = (&self.out, format) {
             let lost = design_file::write(&made, format, out)?;
             lost.iter().for_each(|what| say(&format!("note: {}: {what}", out.display())));
@@ -161,43 +199,31 @@ impl RetargetArguments {
         ])
     }
 
-    fn value(
+    fn result<'a>(
         &self,
-        path: &str,
-        (old, new): (&Specimen, &Specimen),
-        found: &Retargeted,
-        light: &[MeasuredStone],
-    ) -> Value {
-        let stones = light.iter().map(|stone| {
-            let MeasuredStone { label, measured, carats } = stone;
-            let bands = measured.scope.bands.iter().zip(&measured.figures.transmitted);
-            let zones: serde_json::Map<String, Value> =
-                bands.map(|(band, light)| (band.name.clone(), json!(light))).collect();
-            json!({
-                "stone": label,
-                "index": measured.index,
-                "light_return": measured.light_return(),
-                "glare_return": measured.glare_return(),
-                "leakage": measured.leakage(),
-                "transmitted": zones,
-                "absorbed": measured.figures.absorbed,
-                "error": measured.error(),
-                "carats": carats,
-            })
-        });
-        json!({
-            "file": path,
-            "name": found.design.name,
-            "from": old.material.name,
-            "to": new.material.name,
-            "critical_deg": found.critical_deg,
-            "main": found.main,
-            "factor": found.factor,
-            "tiers": found.tiers,
-            "notes": found.notes,
-            "wavelength_nm": (!light.is_empty()).then_some(self.wavelength),
-            "light": stones.collect::<Vec<_>>(),
-        })
+        path: &'a str,
+        (old, new): (&'a Specimen, &'a Specimen),
+        found: &'a Retargeted,
+        light: &'a [MeasuredStone],
+    ) -> RetargetResult<'a> {
+        let stone = |stone: &'a MeasuredStone| StoneLight {
+            stone: &stone.label,
+            shares: stone.measured.shares(),
+            carats: stone.carats,
+        };
+        RetargetResult {
+            file: path,
+            name: &found.design.name,
+            from: &old.material.name,
+            to: &new.material.name,
+            critical_deg: found.critical_deg,
+            main: &found.main,
+            factor: found.factor,
+            tiers: &found.tiers,
+            notes: &found.notes,
+            wavelength_nm: (!light.is_empty()).then_some(self.wavelength),
+            light: light.iter().map(stone).collect(),
+        }
     }
 
     fn table(
@@ -208,50 +234,19 @@ impl RetargetArguments {
         light: &[MeasuredStone],
     ) -> String {
         let [from, to] = found.critical_deg;
-        let mut text =
-            format!("{path}: {}, {} to {}\n", found.design.name, old.material.name, new.material.name);
-        let _ = writeln!(text, "  {:<28}{from:.2} to {to:.2} deg", "critical angle");
-        let _ = writeln!(text, "  {:<28}{}", "main tier", found.main);
-        let _ = writeln!(text, "  {:<28}{:.4}", "its tangent ratio", found.factor);
-        for note in &found.notes {
-            let _ = writeln!(text, "  note: {note}");
-        }
-        let _ = write!(
-            text,
-            "\n  {:<18}{:>7}{:>11}{:>11}{:>10}",
-            "tier", "facets", "from deg", "to deg", "margin"
-        );
-        for tier in &found.tiers {
-            let margin = match tier.after_deg < 0.0 {
-                true => fixed(-tier.after_deg - to, 2),
-                false => String::new(),
-            };
-            let (name, facets, before, after) = (&tier.name, tier.facets, tier.before_deg, tier.after_deg);
-            let _ = write!(text, "\n  {name:<18}{facets:>7}{before:>11.2}{after:>11.2}{margin:>10}");
-        }
+        let mut lines = Table::of_pairs();
+        lines.pair("critical angle", format!("{from:.2} to {to:.2} deg"));
+        lines.pair("main tier", found.main.as_str());
+        lines.pair("its tangent ratio", format!("{:.4}", found.factor));
+        found.notes.iter().for_each(|note| lines.line(&format!("  note: {note}")));
+        let tiers = table_of_tiers(&found.tiers, to);
+        let (name, old, new) = (&found.design.name, &old.material, &new.material);
+        let mut text = format!("{path}: {name}, {} to {}\n{lines}\n\n{tiers}", old.name, new.name);
         if light.is_empty() {
             return text;
         }
-        let _ = write!(text, "\n\n  light at {} nm, face up", self.wavelength);
-        let _ = write!(text, "\n  {:<18}", "% of face");
-        for stone in light {
-            let _ = write!(text, "  {:>26}", stone.label);
-        }
-        let mut row = |name: &str, of: &dyn Fn(&MeasuredStone) -> String| {
-            let columns: String = light.iter().map(|stone| format!("  {:>26}", of(stone))).collect();
-            let _ = write!(text, "\n  {name:<18}{columns}");
-        };
-        let percent = |part: f64| format!("{:.2}", 100.0 * part);
-        row("light return", &|stone| percent(stone.measured.light_return()));
-        row("with glare", &|stone| percent(stone.measured.light_return() + stone.measured.glare_return()));
-        let bands = &light[0].measured.scope.bands;
-        for (place, band) in bands.iter().enumerate().rev() {
-            row(&band.name, &|stone| percent(stone.measured.figures.transmitted[place]));
-        }
-        row("absorbed", &|stone| percent(stone.measured.figures.absorbed));
-        row("error", &|stone| percent(stone.measured.error()));
-        row("weight, ct", &|stone| stone.carats.map_or("not known".into(), |carats| format!("{carats:.3}")));
-        if let Some(unknown) = [&old.material, &new.material].into_iter().find(|of| of.density.is_none()) {
+        let _ = write!(text, "\n\n  light at {} nm, face up\n{}", self.wavelength, table_of_light(light));
+        if let Some(unknown) = [old, new].into_iter().find(|of| of.density.is_none()) {
             let _ = write!(
                 text,
                 "\n\n  no weight: no density is known of {}; a material by name has one, such as quartz",
@@ -260,4 +255,47 @@ impl RetargetArguments {
         }
         text
     }
+}
+
+/// Returns a table of the tiers that changed; `critical_deg` is the critical angle of the new material.
+fn table_of_tiers(tiers: &[RetargetedTier], critical_deg: f64) -> Table {
+    let degrees = |head: &'static str, width| Column::right(head, width).digits(2);
+    let columns = [
+        Column::left("tier", 18),
+        Column::right("facets", 7),
+        degrees("from deg", 11),
+        degrees("to deg", 11),
+        degrees("margin", 10),
+    ];
+    let mut table = Table::headed(columns).indented(2);
+    for tier in tiers {
+        let margin = match tier.after_deg < 0.0 {
+            true => TableCell::Number(-tier.after_deg - critical_deg),
+            false => "".into(),
+        };
+        let (before, after) = (tier.before_deg.into(), tier.after_deg.into());
+        table.row([tier.name.as_str().into(), tier.facets.into(), before, after, margin]);
+    }
+    table
+}
+
+/// Returns a table with a column for each stone.
+fn table_of_light(light: &[MeasuredStone]) -> Table {
+    let of_stone = |stone: &MeasuredStone| Column::right(stone.label.clone(), 26).after(2).digits(2);
+    let columns = std::iter::once(Column::left("% of face", 18)).chain(light.iter().map(of_stone));
+    let mut table = Table::headed(columns.collect::<Vec<_>>()).indented(2);
+    let mut row = |name: &str, of: &dyn Fn(&MeasuredStone) -> TableCell| {
+        table.row(std::iter::once(name.into()).chain(light.iter().map(of)));
+    };
+    let percent = |part: f64| TableCell::Number(100.0 * part);
+    row("light return", &|stone| percent(stone.measured.light_return()));
+    row("with glare", &|stone| percent(stone.measured.light_return() + stone.measured.glare_return()));
+    let bands = light.first().map_or(&[][..], |stone| &stone.measured.scope.bands);
+    for (place, band) in bands.iter().enumerate().rev() {
+        row(&band.name, &|stone| percent(stone.measured.figures.transmitted[place]));
+    }
+    row("absorbed", &|stone| percent(stone.measured.figures.absorbed));
+    row("error", &|stone| percent(stone.measured.error()));
+    row("weight, ct", &|stone| stone.carats.map_or("not known".into(), |ct| format!("{ct:.3}").into()));
+    table
 }

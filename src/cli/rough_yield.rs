@@ -1,14 +1,13 @@
 //! `yield`: prints the size, weight and yield of the stone that a piece of rough gives, or that has a weight or a size.
 
-use super::console::{json, print};
+use super::console::{OfFile, print, print_json};
 use super::options::number;
-use super::specimen::{LoadedSpecimen, weight};
+use super::specimen::weight;
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
-use brillianteer_cut::{Finished, FitLimit, Rough, RoughError, Size};
+use brillianteer_cut::{Finished, FitLimit, Rough, RoughError, Size, YieldReport};
+use brillianteer_paper::table::Table;
 use clap::{ArgGroup, Args};
-use serde_json::{Value, json};
-use std::fmt::Write;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -64,57 +63,40 @@ impl RoughYield {
                  rough that the stone fits into"
             )));
         }
-        let value = self.value(&specimen, &found);
-        print(&if self.json { json(&value) } else { self.table(&value, &found) })
+        let (name, material) = (&specimen.design.name, &specimen.material);
+        let report = YieldReport::of(name, material, found, self.rough, self.rough_weight);
+        match self.json {
+            true => print_json(&OfFile { file: path, result: report }),
+            false => print(&format!("{path}: {name}, {}\n{}", material.name, table(&report))),
+        }
     }
+}
 
-    fn value(&self, specimen: &LoadedSpecimen, found: &Finished) -> Value {
-        let carats = specimen.material.carats(found.volume_mm3);
-        let percent = |part: f64| 100.0 * part;
-        json!({
-            "file": specimen.path,
-            "name": specimen.design.name,
-            "material": specimen.material.name,
-            "density": specimen.material.density,
-            "rough_mm": self.rough.map(|rough| rough.sides_mm),
-            "rough_carats": self.rough_weight,
-            "finished": found,
-            "carats": carats,
-            "yield_of_box_percent": self.rough.map(|rough| percent(found.yield_of(rough.volume_mm3()))),
-            "yield_of_weight_percent": carats.zip(self.rough_weight).map(|(carats, rough)| percent(carats / rough)),
-        })
+fn table(report: &YieldReport) -> Table {
+    let found = &report.finished;
+    let mut table = Table::of_pairs();
+    let size = |[x, y, depth]: [f64; 3]| format!("{x:.3} by {y:.3} by {depth:.3} mm");
+    table.pair("finished size", size(found.own_size_mm));
+    table.pair("diameter", format!("{:.3} mm", found.diameter_mm));
+    if let Some(mm) = found.girdle_mm {
+        table.pair("girdle", format!("{mm:.3} mm"));
     }
-
-    fn table(&self, value: &Value, found: &Finished) -> String {
-        let text = |key: &str| value[key].as_str().unwrap_or_default();
-        let mut table = format!("{}: {}, {}\n", text("file"), text("name"), text("material"));
-        let mut line = |key: &str, what: String| {
-            let _ = writeln!(table, "  {key:<28}{what}");
+    table.pair("weight", weight(report.carats, &report.material));
+    if let Some(percent) = report.yield_of_box_percent {
+        let limit = match found.limit {
+            FitLimit::Footprint => "the rough's length and width",
+            FitLimit::Depth => "the rough's depth",
+            FitLimit::Weight => "the weight",
+            FitLimit::Diameter => "the diameter",
         };
-        let size = |[x, y, depth]: [f64; 3]| format!("{x:.3} by {y:.3} by {depth:.3} mm");
-        line("finished size", size(found.own_size_mm));
-        line("diameter", format!("{:.3} mm", found.diameter_mm));
-        if let Some(mm) = found.girdle_mm {
-            line("girdle", format!("{mm:.3} mm"));
-        }
-        let carats = value["carats"].as_f64();
-        line("weight", weight(carats, text("material")));
-        if let Some(rough) = self.rough {
-            let limit = match found.limit {
-                FitLimit::Footprint => "the rough's length and width",
-                FitLimit::Depth => "the rough's depth",
-                FitLimit::Weight => "the weight",
-                FitLimit::Diameter => "the diameter",
-            };
-            line("limited by", limit.to_owned());
-            line("turned in the rough", format!("{:.2} deg", found.turn_deg));
-            line("place it takes there", size(found.size_mm));
-            line("depth left", format!("{:.3} mm", found.depth_left_mm));
-            line("yield of the box", format!("{:.2} %", 100.0 * found.yield_of(rough.volume_mm3())));
-        }
-        if let Some(percent) = value["yield_of_weight_percent"].as_f64() {
-            line("yield of the weight", format!("{percent:.2} %"));
-        }
-        table.trim_end().to_owned()
+        table.pair("limited by", limit);
+        table.pair("turned in the rough", format!("{:.2} deg", found.turn_deg));
+        table.pair("place it takes there", size(found.size_mm));
+        table.pair("depth left", format!("{:.3} mm", found.depth_left_mm));
+        table.pair("yield of the box", format!("{percent:.2} %"));
     }
+    if let Some(percent) = report.yield_of_weight_percent {
+        table.pair("yield of the weight", format!("{percent:.2} %"));
+    }
+    table
 }

@@ -1,8 +1,8 @@
 //! `sheet`: writes the sheets that gem cutters work from.
 
-use super::batch::{distinct, each_file};
+use super::batch::{distinct, each_file, print_json_of};
 use super::choice::{PAPER_SIZES, SHEET_FORMATS, one_of};
-use super::console::{json, print, say, written};
+use super::console::{OfFile, say, written};
 use super::specimen::stem;
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
@@ -11,7 +11,6 @@ use brillianteer_paper::cutting_sheet::{SheetFormat, cutting_sheet, write};
 use brillianteer_paper::note_of_letters;
 use brillianteer_picture::PaperSize;
 use clap::Args;
-use serde_json::json;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -48,13 +47,7 @@ impl SheetArguments {
             let specimen = self.specimen.load(file)?;
             let sheet = cutting_sheet(&specimen, self.left_handed)?;
             let Some((format, is_folder)) = format else {
-                let mut value = json!({ "file": specimen.path });
-                if let (Some(value), Ok(serde_json::Value::Object(sheet))) =
-                    (value.as_object_mut(), serde_json::to_value(&sheet))
-                {
-                    value.extend(sheet);
-                }
-                return print(&if self.files.len() == 1 { json(&value) } else { value.to_string() });
+                return print_json_of(&self.files, &OfFile { file: &specimen.path, result: sheet });
             };
             let path = match is_folder {
                 true => self.out.join(format!("{}{}-sheet.{}", stem(file), self.told_apart, format.ending())),

@@ -51,11 +51,6 @@ impl LoadedSpecimen {
         Ok(Self { path, made, errors, bodies, remarks })
     }
 
-    /// Returns the standard errors of the facet of a name, where the stone was found in a scan.
-    pub fn error(&self, facet: &str) -> Option<&FacetError> {
-        self.errors.iter().find(|error| error.facet == facet)
-    }
-
     /// Returns the same stone with another material (a name or an index) and size, where one of them is `Some`.
     pub fn made_of(self, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
         let Self { path, made, errors, bodies, remarks } = self;

@@ -1,12 +1,12 @@
 //! The table that `sweep` writes: row by row as CSV or JSON lines, or as Parquet in the end.
 
-use super::console::print;
+use super::console::{json_line, print};
 use super::sweep_parquet::ParquetTable;
-use brillianteer_base::Failure;
+use brillianteer_base::{ByName, Failure};
 use brillianteer_files::{WholeFile, check_writable};
 use brillianteer_measure::{Interval, MeasureName};
 use brillianteer_render::SweptStone;
-use serde_json::{Map, Value, json};
+use serde::Serialize;
 use std::collections::VecDeque;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
@@ -182,7 +182,7 @@ impl RowTable {
     }
 
     fn write(&mut self, row: &SweepRow) -> Result<(), Failure> {
-        let line = self.line(row);
+        let line = self.line(row)?;
         match self.checked.pop_front() {
             None => match &mut self.file {
                 None => print(line.trim_end_matches('\n')),
@@ -194,23 +194,34 @@ impl RowTable {
     }
 
     /// Returns the line of a row.
-    fn line(&self, row: &SweepRow) -> String {
+    fn line(&self, row: &SweepRow) -> Result<String, Failure> {
         let SweepRow { file, point, numbers, error } = row;
         if self.is_json {
-            let texts = std::iter::once(*file).chain(point.iter().map(String::as_str));
-            let texts =
-                texts.map(|text| text.parse::<f64>().map_or_else(|_| json!(text), |number| json!(number)));
-            let values = texts.chain(numbers.iter().map(|number| json!(number))).chain([json!(error)]);
-            let mut row: Map<String, Value> = self.columns.iter().cloned().zip(values).collect();
-            row.insert("file".into(), json!(file));
-            return format!("{}\n", Value::Object(row));
+            let point = point.iter().map(|text| match text.parse() {
+                Ok(number) => RowValue::Number(Some(number)),
+                Err(_) => RowValue::Text(text),
+            });
+            let numbers = numbers.iter().copied().map(RowValue::Number);
+            let values = std::iter::once(RowValue::Text(file)).chain(point).chain(numbers);
+            let columns = self.columns.iter().map(String::as_str);
+            let row: ByName<RowValue> = columns.zip(values.chain([RowValue::Text(error)])).collect();
+            return Ok(json_line(&row)? + "\n");
         }
         let texts = std::iter::once((*file).to_owned()).chain(point.iter().cloned());
         let number = |number: &Option<f64>| number.map_or(String::new(), |number| format!("{number:.7}"));
         let numbers = numbers.iter().map(number);
         let row: Vec<String> = texts.chain(numbers).chain([(*error).to_owned()]).collect();
-        csv_line(&row)
+        Ok(csv_line(&row))
     }
+}
+
+/// The value of a column in a row as JSON.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum RowValue<'a> {
+    Text(&'a str),
+    /// A number; `None` where there is none.
+    Number(Option<f64>),
 }
 
 /// A file that takes rows one after the other. It appears, and replaces a file of its name, with its first row; it holds whole

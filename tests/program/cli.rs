@@ -16,6 +16,7 @@ mod pictures;
 mod recorder;
 mod renders;
 mod reports;
+mod results;
 mod searching;
 mod spins;
 #[cfg(target_os = "linux")]

@@ -4,6 +4,7 @@ use super::material::{MaterialError, MaterialRef};
 use super::{Cut, ProportionError, TierFault, Tiers, Warning, names};
 use brillianteer_math::{NotConvex, Plane};
 use brillianteer_optics::{critical_angle, line};
+use serde::{Deserialize, Serialize};
 
 /// The girdle diameter of a design whose file gives none, mm: that of a brilliant of about one carat.
 pub const DEFAULT_DIAMETER_MM: f64 = 6.5;
@@ -15,7 +16,9 @@ pub const MAX_PLANES: usize = 10_000;
 pub const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 
 /// A stone in a file: its cut, its material and its size.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// Serde writes all of it, and reads any numbers: [`check`](Self::check) says whether they can be a design.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Design {
     /// The cut's name: printable, not blank, and at most 200 bytes long.
     pub name: String,

@@ -5,9 +5,11 @@
 
 use brillianteer_math::ImplicitForm;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// A glass shape with its dimensions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Glass {
     /// A stadium with rounded edges.
     Pill(Sides),
@@ -20,7 +22,7 @@ pub enum Glass {
 }
 
 /// Outer dimensions, percent of the diameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sides {
     /// The length along x.
     pub length: f64,
@@ -33,7 +35,7 @@ pub struct Sides {
 }
 
 /// A plate whose middle waves. Lengths are percent of the diameter. Measured along z it has the same thickness everywhere.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Plate {
     /// The outer dimensions of the plate without its wave.
     pub sides: Sides,

@@ -14,6 +14,7 @@ mod class_estimate;
 mod concave;
 mod derive;
 mod design;
+mod design_data;
 mod facet_net;
 mod facet_zones;
 mod facets;
@@ -52,7 +53,8 @@ mod tiers;
 mod warning;
 
 pub use audit::{
-    Audit, AuditSubject, Finding, FindingKind, FindingUnit, NEAR_MISS, SMALL_FACET, SmallestParts,
+    Audit, AuditSubject, CountedAudit, Finding, FindingKind, FindingUnit, NEAR_MISS, SMALL_FACET,
+    SmallestParts,
 };
 pub use beyond_gear::BeyondGear;
 pub use class_estimate::{BrilliantProportions, ClassEstimate, ClassLimit, CutClass, NearbyClass};
@@ -67,7 +69,8 @@ pub use frosting::{FROSTINGS, FinishNote, USUAL_FROSTING, with_finish};
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
 pub use meets::{
-    CornerFault, GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierCorner, TierOutcome,
+    CornerFault, GivenSize, KnownMeets, Meet, MeetError, MeetFault, MeetOutcome, MeetPoint, MeetSource,
+    SolvedTiers, TierCorner, TierMeet, TierOutcome,
 };
 pub use mesh_shape::MeshShape;
 pub use names::{is_printable, tier_stem};
@@ -77,7 +80,7 @@ pub use proportions::Derived;
 pub use published_ranges::{PUBLISHED_RANGES, PublishedRange};
 pub use report::{MeshHeights, ProportionReport, Spread, TierReport};
 pub use retarget::{RetargetError, RetargetRule, Retargeted, RetargetedTier, retarget};
-pub use rough::{Finished, FitLimit, Rough, RoughError};
+pub use rough::{Finished, FitLimit, Rough, RoughError, YieldReport};
 pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 pub use round_brilliant_table::least_star_length;
 pub use setting::MachineSetting;

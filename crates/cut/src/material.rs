@@ -3,12 +3,14 @@
 use brillianteer_optics::{
     Dispersion, DispersionError, INDICES, INDICES_IN_WORDS, Material, UnknownMaterial, VISIBLE_NM,
 };
+use serde::{Deserialize, Serialize};
 
 /// The densities that a material may have, g/cm³: from aerogel to beyond osmium.
 const DENSITIES: std::ops::RangeInclusive<f64> = 0.1..=30.0;
 
 /// The material of a stone, as written in a file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum MaterialRef {
     /// A material of the library, by its name.
     Name(String),

@@ -1,8 +1,9 @@
 //! The shape of a stone of triangles.
 
 use super::outline;
-use brillianteer_math::{Calipers, Pose, TriangleMesh, hull, span};
+use brillianteer_math::{Calipers, Pose, Surface, TriangleMesh, hull, span};
 use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -14,7 +15,8 @@ const IN_FRAME: f64 = 1e-9;
 ///
 /// z is up and half the diameter is 1 (see [`Outline`](super::Outline)). The middle of the outline lies on the axis, and the
 /// middle of the height at z = 0.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "Surface", into = "Surface")]
 pub struct MeshShape(pub Arc<TriangleMesh>);
 
 impl MeshShape {

@@ -4,7 +4,7 @@ use super::facet_zones::FacetZones;
 use super::girdle_at_mains::MeasuredGirdle;
 use brillianteer_math::{Calipers, Edge, Facet, Polytope, SolidRef, bounds, hull};
 use glam::{DVec2, DVec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A round outline's corners lie at least this part of the largest radius from its middle.
 const ON_CIRCLE: f64 = 0.99;
@@ -26,7 +26,7 @@ const SAME_CORNER: f64 = 1e-7;
 
 /// The measures of a stone. They do not depend on how the stone is turned about its axis. Lengths are in the unit of the
 /// stone.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Outline {
     /// The extent square to the width, seen along the axis.
     pub length: f64,
@@ -115,7 +115,7 @@ impl Outline {
 
 /// The ratios that cutters' diagrams print of a stone. GemCad measures along the axes of the design, whichever way the stone
 /// lies. W is the smaller of the stone's extents along x and y.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AlongAxes {
     /// L/W: the larger of the stone's extents along x and y, divided by the smaller.
     pub length_to_width: f64,

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_8, PI, TAU};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 
@@ -16,7 +16,7 @@ pub(super) const HALF_AZIMUTH: f64 = FRAC_PI_8 / 2.0;
 
 /// The numbers that follow from the given proportions. Lengths are in percent of the girdle diameter, angles in
 /// degrees from the girdle plane.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Derived {
     /// The angle of the bezels, degrees.
     pub crown_angle: f64,
@@ -44,6 +44,25 @@ pub struct Derived {
     pub girdle_thickness_valley: f64,
     /// The depth from table to culet, percent.
     pub total_depth: f64,
+}
+
+impl Derived {
+    /// Returns the numbers by their keys, in the order of their fields.
+    pub fn by_key(&self) -> [(&'static str, f64); 11] {
+        [
+            ("crown_angle", self.crown_angle),
+            ("crown_height", self.crown_height),
+            ("pavilion_angle", self.pavilion_angle),
+            ("pavilion_depth", self.pavilion_depth),
+            ("star_angle", self.star_angle),
+            ("upper_half_angle", self.upper_half_angle),
+            ("lower_half_angle", self.lower_half_angle),
+            ("lower_half_length", self.lower_half_length),
+            ("lower_half_length_vertical", self.lower_half_length_vertical),
+            ("girdle_thickness_valley", self.girdle_thickness_valley),
+            ("total_depth", self.total_depth),
+        ]
+    }
 }
 
 /// The variables of the closed form. Facets and warnings are made only of checked ones.

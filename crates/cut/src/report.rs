@@ -6,10 +6,10 @@ use super::outline::{AlongAxes, Outline};
 use super::{TierZone, tier_stem};
 use brillianteer_math::{Facet, Plane, Polytope, TriangleMesh, grouped, span};
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The least, mean and greatest value among the facets of a tier.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// The least value.
     pub least: f64,
@@ -28,12 +28,12 @@ impl Spread {
 }
 
 /// The facets of one tier in one zone.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TierReport {
     /// The name of the tier: where several tiers have one name of their own, the second has `#2` behind it, and so on.
     pub name: String,
-    /// The zone where they lie: `table`, `crown`, `girdle`, `pavilion` or `culet`.
-    pub zone: &'static str,
+    /// The zone where they lie.
+    pub zone: TierZone,
     /// The number of facets.
     pub facets: usize,
     /// The slopes of the facets from the girdle plane, degrees.
@@ -43,7 +43,7 @@ pub struct TierReport {
 }
 
 /// A stone's proportions, measured on the solid: percent of its diameter (see [`Outline::diameter`]), and tiers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProportionReport {
     /// The length divided by the width.
     pub length_to_width: f64,
@@ -104,7 +104,7 @@ impl ProportionReport {
 }
 
 /// The heights of a solid of triangles whose girdle stands upright, in percent of its diameter, which is 2 in its frame.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshHeights {
     /// The height from the girdle's highest point to the highest point.
     pub crown_height: f64,
@@ -161,7 +161,7 @@ fn tiers(stone: &Polytope, names: &[&str]) -> Vec<TierReport> {
         let slope = |normal: DVec3| normal.truncate().length().atan2(normal.z.abs()).to_degrees();
         TierReport {
             name: name.to_owned(),
-            zone: zone.name(),
+            zone,
             facets: tier.len(),
             slope_deg: Spread::of(tier.iter().map(|(_, plane)| slope(plane.normal))),
             // The sum with 0 turns the -0 of a plane through the origin into 0.
@@ -182,7 +182,7 @@ mod tests {
         let facets = MODERN.facets().unwrap();
         let (names, planes): (Vec<String>, Vec<Plane>) = facets.into_iter().unzip();
         let report = ProportionReport::of(&Polytope::from_planes(&planes).unwrap(), &names);
-        let told: Vec<_> = report.tiers.iter().map(|t| (t.name.as_str(), t.zone, t.facets)).collect();
+        let told: Vec<_> = report.tiers.iter().map(|t| (t.name.as_str(), t.zone.name(), t.facets)).collect();
         assert_eq!(
             told,
             [

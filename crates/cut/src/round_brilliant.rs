@@ -4,8 +4,10 @@
 //! It has eight bezels, eight stars, sixteen upper and sixteen lower halves, and eight mains. Measures follow GIA: table and
 //! star length are radial, and the lower-half length is radial too unless the vertical one is given.
 
+use serde::{Deserialize, Serialize};
+
 /// The proportions of a round brilliant as given. All facets follow from them. Their ranges are in the family's table.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RoundBrilliant {
     /// The table's size from corner to opposite corner, percent of the girdle diameter.
     pub table: f64,
@@ -31,7 +33,8 @@ pub struct RoundBrilliant {
 }
 
 /// The measure that gives a crown.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Crown {
     /// The angle of the bezels from the girdle plane, degrees.
     Angle(f64),
@@ -40,7 +43,8 @@ pub enum Crown {
 }
 
 /// The measure that gives a pavilion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Pavilion {
     /// The angle of the mains from the girdle plane, degrees.
     Angle(f64),
@@ -49,7 +53,8 @@ pub enum Pavilion {
 }
 
 /// The measure that gives the length of the lower halves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum LowerHalf {
     /// The length seen along the axis: percent of the way from the girdle to the centre (GIA).
     Radial(f64),

@@ -6,16 +6,18 @@ use super::mesh_shape::MeshShape;
 use super::round_brilliant::RoundBrilliant;
 use super::tiers::Tiers;
 use brillianteer_math::Plane;
+use serde::{Deserialize, Serialize};
 
 /// The shape of a stone: a family with its proportions, tiers, planes, a mesh, or a glass shape.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Cut {
     /// A round brilliant, by its proportions.
     RoundBrilliant(RoundBrilliant),
     /// A cut of another family, by the numbers of its table.
     Family(FamilyCut),
     /// Facets by angle, distance and index, as cutters write them.
-    Tiers(Tiers),
+    Tiers(#[serde(with = "super::design_data::whole_tiers")] Tiers),
     /// Planes with their names, as written: 1 to [`MAX_PLANES`](super::MAX_PLANES) planes, normals of any length but
     /// zero. Names may repeat.
     Planes(Vec<(String, Plane)>),

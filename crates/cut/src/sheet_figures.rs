@@ -6,7 +6,7 @@
 use super::facet_zones::FacetZones;
 use super::outline::{AlongAxes, Outline};
 use brillianteer_math::Polytope;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The ratios and counts of a stone that stand at the top of a cutter's sheet.
 ///
@@ -14,7 +14,7 @@ use serde::Serialize;
 /// and y, T and U are the extents of the table along x and y, P, G and C are the heights of pavilion, girdle and crown between
 /// the girdle's edges as [`AlongAxes`] has them, and H is the whole height, P + G + C. Ratios have no unit and are 0 or more; without a table T
 /// and U are 0.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SheetFigures {
     /// L/W; 1 or more.
     pub length_to_width: f64,

@@ -58,7 +58,7 @@ fn once() -> u32 {
 }
 
 /// Facets cut at one setting of the machine.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Tier {
     /// The angle from the girdle plane, degrees: above 0 crown, below 0 pavilion, ±90 girdle. 0 is the table, or, with a
     /// negative sign or distance, the culet.
@@ -79,7 +79,7 @@ pub struct Tier {
 }
 
 /// A facet of a tier.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Indexed {
     /// The index on the gear, in teeth; may lie between two teeth.
     pub index: f64,
@@ -126,7 +126,8 @@ impl TierFault {
 }
 
 /// The part of a stone where a tier lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum TierZone {
     /// The flat facet on top.
     Table,

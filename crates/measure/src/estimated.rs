@@ -13,6 +13,7 @@ use brillianteer_trace::beam::SummedBeams;
 use brillianteer_trace::tail::Tail;
 use glam::DVec2;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The number of strata of the first estimate, which shows how many are needed.
 const FIRST: u64 = 128;
@@ -39,7 +40,7 @@ const OF_AREAS: f64 = 10.0;
 const SPARE: f64 = 1.03;
 
 /// An estimate of the light that exact beams have left, by rays.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Light of the rest that leaves the stone, by the band that it comes from, as a part of the silhouette.
     pub transmitted: Zones,

@@ -14,10 +14,10 @@ use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_cut::FacetZones;
 use brillianteer_math::Polytope;
 use brillianteer_trace::beam::{Beam, Beams};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The measures of the pattern on the face.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PatternMeasures {
     /// The contrast of the face after averaging over squares of the eye's resolution.
     pub eye_contrast: Interval,

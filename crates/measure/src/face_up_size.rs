@@ -3,7 +3,7 @@
 use brillianteer_cut::round_diameter;
 use brillianteer_math::{Calipers, Polytope, hull};
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// The volume, the area seen from above and the outline's perimeter of a round brilliant with table 57 %, crown 34.0°,
@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 const REFERENCE: [f64; 3] = [1.632_614_073_561_201, 3.139_350_203_046_868, 6.282_063_901_781_019];
 
 /// The size of a stone as seen from above, for its weight.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FaceUpSize {
     /// The area of the stone seen from above, mm².
     pub face_mm2: f64,

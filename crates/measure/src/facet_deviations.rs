@@ -3,6 +3,7 @@
 //! The classes are found from the geometry alone, so that a scan without names is measured like a design. The definitions are in
 //! docs/optics.md, "Facet deviations".
 
+use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{FacetZones, TierZone};
 use brillianteer_math::{Facet, Plane, span};
 use brillianteer_scene::Stone;
@@ -47,19 +48,47 @@ impl FacetDeviation {
     }
 }
 
+/// A facet that deviates from its class, with the standard error of its deviation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ErringDeviation {
+    /// The facet and its deviation.
+    #[serde(flatten)]
+    pub deviation: FacetDeviation,
+    /// The standard error of the deviation, degrees; `None` where those of the facets are not known.
+    pub error_deg: Option<f64>,
+}
+
 /// The deviations of one class of facets.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ClassDeviations {
+pub struct ClassDeviations<D = FacetDeviation> {
     /// The class: `star`, `bezel`, `upper half`, `lower half` or `main`.
     pub class: &'static str,
     /// The greatest azimuth deviation less the least, degrees.
     pub azimuth_spread_deg: f64,
     /// The facet whose azimuth deviates most.
-    pub worst_azimuth: FacetDeviation,
+    pub worst_azimuth: D,
     /// The greatest slope less the least, degrees.
     pub slope_spread_deg: f64,
     /// The facet whose slope deviates most.
-    pub worst_slope: FacetDeviation,
+    pub worst_slope: D,
+}
+
+impl ClassDeviations {
+    /// Returns the deviations with their standard errors, which follow from those of the facets that were found in a scan.
+    pub fn with_errors(&self, errors: &[FacetError]) -> ClassDeviations<ErringDeviation> {
+        let of = |facet: &str| errors.iter().find(|error| error.facet == facet);
+        let erring = |deviation: &FacetDeviation, error: &dyn Fn(&str) -> Option<f64>| ErringDeviation {
+            deviation: deviation.clone(),
+            error_deg: deviation.standard_error(error),
+        };
+        ClassDeviations {
+            class: self.class,
+            azimuth_spread_deg: self.azimuth_spread_deg,
+            worst_azimuth: erring(&self.worst_azimuth, &|facet| of(facet)?.azimuth_deg),
+            slope_spread_deg: self.slope_spread_deg,
+            worst_slope: erring(&self.worst_slope, &|facet| Some(of(facet)?.slope_deg)),
+        }
+    }
 }
 
 /// The reason why a stone has no eightfold classes.

@@ -3,6 +3,7 @@
 use super::estimated::Estimate;
 use brillianteer_scene::Scope;
 use brillianteer_trace::beam::{BeamSums, Beams, SummedBeams};
+use serde::{Deserialize, Serialize};
 
 /// A number for each band of a scope, in the scope's order.
 pub type Zones = Vec<f64>;
@@ -16,7 +17,7 @@ pub type Zones = Vec<f64>;
 /// areas of strongest exits by up to `strongest_exit_undecided`. Where the light that the beams left is estimated,
 /// each of these contains its estimated part; without that part it is certainly not too high. From rays,
 /// `standard_error` is the error of sampling.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// Area of the silhouette, in squared girdle radii.
     pub silhouette_area: f64,

@@ -5,7 +5,7 @@ use brillianteer_scene::{Lean, Medium, View};
 use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// The number of lattices whose scatter gives the standard error.
@@ -20,7 +20,7 @@ const STEPS: [f64; 4] =
     [0.856_674_883_854_502_9, 0.733_891_856_627_125_4, 0.628_706_721_038_087, 0.538_597_257_223_699_1];
 
 /// A number by sampling, with its standard error.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SampledNumber {
     /// The number.
     pub value: f64,

@@ -1,15 +1,25 @@
 //! Intervals that certainly hold a number.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::ops::Add;
 
-/// An interval in which a number certainly lies.
+/// An interval in which a number certainly lies. JSON has no infinity: an end without bound is written and read as null.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// The least possible value.
+    #[serde(deserialize_with = "unbounded_below")]
     pub least: f64,
     /// The greatest possible value.
+    #[serde(deserialize_with = "unbounded_above")]
     pub most: f64,
+}
+
+fn unbounded_below<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::NEG_INFINITY))
+}
+
+fn unbounded_above<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
 
 impl Interval {

@@ -33,7 +33,9 @@ pub use derivatives::MeasureDerivatives;
 pub use estimated::{Estimate, by_beams_and_rays};
 pub use face_patterns::PatternMeasures;
 pub use face_up_size::FaceUpSize;
-pub use facet_deviations::{ClassDeviations, FacetDeviation, NotEightfold, facet_deviations};
+pub use facet_deviations::{
+    ClassDeviations, ErringDeviation, FacetDeviation, NotEightfold, facet_deviations,
+};
 pub use figures::{Figures, Zones, by_beams, by_summed_beams};
 pub use hearts_and_arrows::{
     EightfoldPattern, HeartsAndArrows, HeartsError, OctantDeparture, OctantFigure, OctantUnit,
@@ -45,7 +47,7 @@ pub use light_measures::{
     DomeReturn, LightMeasures, MEASURES_HEAD_DEG, MeasureSettings, PUPIL_DEG, pupil_deg,
 };
 pub use measure_name::{MeasureName, MeasureNeeds, NoMeasure};
-pub use measured::{Bounds, LATTICE, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};
+pub use measured::{Bounds, LATTICE, LightShares, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};
 pub use pattern_settings::{EYE_RESOLVES_MM, PatternSettings, ROCK_DEG, SHAPE_IS_SEEN};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;

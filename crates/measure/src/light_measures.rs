@@ -75,7 +75,7 @@ impl MeasureSettings {
 
 /// The light of a dome that reaches the eye, as a part of the light that a white sheet in the stone's place would
 /// send under an even dome.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct DomeReturn {
     /// The dome.
     pub dome: DomeLight,
@@ -93,7 +93,7 @@ impl DomeReturn {
 }
 
 /// The measures of one view. Each is a part of the silhouette's light or area, unless it says otherwise.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LightMeasures {
     /// The return of each dome, in the order of the settings.
     pub domes: Vec<DomeReturn>,

@@ -1,7 +1,9 @@
 //! The figures of a stone in a scope, with the scope, index and tracer that they belong to.
 
 use super::figures::Figures;
+use brillianteer_base::ByName;
 use brillianteer_scene::Scope;
+use serde::{Deserialize, Serialize};
 
 /// The default part of the light that may stay unresolved where nothing is estimated. It takes a few hundredths of a
 /// second face up, and some seconds for a tilted stone.
@@ -54,7 +56,7 @@ impl Bounds {
 }
 
 /// The figures of a stone under a scope, with the scope, index and tracer that they belong to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// The shares of the light, by the bands of `scope`.
     pub figures: Figures,
@@ -63,9 +65,12 @@ pub struct Measured {
     /// The refractive index that was traced.
     pub index: f64,
     /// The tracer's short name: `beam`, `ray` or `gpu`.
-    pub tracer: &'static str,
+    pub tracer: String,
+    /// See [`light_return`](Self::light_return).
     light_return: f64,
+    /// See [`light_return_error`](Self::light_return_error).
     light_return_error: Option<f64>,
+    /// See [`glare_return`](Self::glare_return).
     glare_return: f64,
 }
 
@@ -80,6 +85,25 @@ pub struct Zone {
     pub strongest_exit_area: f64,
 }
 
+/// The light of a stone in shares of the silhouette, by the names of zones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LightShares {
+    /// The refractive index that was traced.
+    pub index: f64,
+    /// [`Measured::light_return`].
+    pub light_return: f64,
+    /// [`Measured::glare_return`].
+    pub glare_return: f64,
+    /// [`Measured::leakage`].
+    pub leakage: f64,
+    /// Light that has been inside the stone, by the zone that it comes from, in the order of the scope.
+    pub transmitted: ByName<f64>,
+    /// The part of the light that is absorbed inside the stone.
+    pub absorbed: f64,
+    /// [`Measured::error`].
+    pub error: f64,
+}
+
 /// Sums up the light of a stone by the bands of a scope. `figures` traces it by a scope whose bands end at the horizon, so
 /// that light from above and from below are counted apart.
 ///
@@ -88,7 +112,7 @@ pub struct Zone {
 pub fn measured<E>(
     scope: &Scope,
     index: f64,
-    tracer: &'static str,
+    tracer: &str,
     figures: impl FnOnce(&Scope) -> Result<Figures, E>,
 ) -> Result<Measured, E> {
     let (split, below) = scope.clone().with_horizon();
@@ -103,7 +127,7 @@ pub fn measured<E>(
         figures,
         scope: scope.clone(),
         index,
-        tracer,
+        tracer: tracer.to_owned(),
         light_return,
         light_return_error,
         glare_return,
@@ -145,6 +169,20 @@ impl Measured {
             transmitted: transmitted[k],
             strongest_exit_area: strongest_exit_area[k],
         })
+    }
+
+    /// Returns the shares of the light by the names of zones.
+    pub fn shares(&self) -> LightShares {
+        let names = self.scope.bands.iter().map(|band| band.name.clone());
+        LightShares {
+            index: self.index,
+            light_return: self.light_return,
+            glare_return: self.glare_return,
+            leakage: self.leakage(),
+            transmitted: names.zip(self.figures.transmitted.iter().copied()).collect(),
+            absorbed: self.figures.absorbed,
+            error: self.error(),
+        }
     }
 
     /// Returns the error of a share of light.

@@ -9,7 +9,7 @@ use brillianteer_base::{Stopped, Watch};
 use brillianteer_scene::View;
 use brillianteer_trace::beam::Beams;
 use glam::{DQuat, DVec2};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The number of directions into which the stone rocks, evenly around it.
 ///
@@ -22,7 +22,7 @@ const DIRECTIONS: u32 = 12;
 const CHANGES: f64 = 0.5;
 
 /// The change of the face as the stone rocks, under an even dome with the observer's head.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scintillation {
     /// The mean change of the brightness of a place, up or down, as a part of the face's mean brightness. `most` is infinite where
     /// the mean may be 0.

@@ -14,9 +14,9 @@ mod tests;
 
 pub(crate) use event::WorkShares;
 pub use event::{Event, Reporter};
-pub use figures::{FigureReport, measure};
-pub use hearts::{HeartsReport, hearts};
-pub use measures::{MeasureReport, light_measures};
+pub use figures::{EstimateErrors, EstimatedFigures, FigureReport, SeenBy, SeenFrom, ViewFigures, measure};
+pub use hearts::{HeartsReport, ViewHearts, hearts};
+pub use measures::{MeasureReport, ViewMeasures, light_measures};
 pub use scope_picture::{ScopePicture, ScopeStill};
 pub use sheet::{PROGRAM, caption_pixels};
 pub use viewing::Viewing;
@@ -277,7 +277,10 @@ impl Export<'_> {
     fn write_figures(&self, renderer: &mut Renderer, watch: Watch, tell: Reporter) -> Result<(), Failure> {
         tell(Event::Begun(&format!("measuring {}", self.viewing.file)))?;
         let report = measure(&self.viewing, &Scoped::aset(), renderer, watch, tell)?;
-        write_text(&self.figures_path(), &format!("{:#}\n", report.json(self.outputs.timing)), tell)
+        let figures = serde_json::to_string_pretty(&report.figures(self.outputs.timing));
+        let path = self.figures_path();
+        let text = figures.map_err(|error| Failure::Output(format!("{}: {error}", path.display())))?;
+        write_text(&path, &(text + "\n"), tell)
     }
 }
 

@@ -1,5 +1,5 @@
-//! What goes out: pictures, animations, drawings, cutters' sheets, plots and reports as files, and the light and the background
-//! that they show.
+//! What goes out: pictures, animations, drawings, cutters' sheets, plots and reports as files, the light and the background
+//! that they show, and what programs and people read of a stone: plain data and text tables.
 
 // A test may list as many cases as it has.
 #![cfg_attr(test, allow(clippy::too_many_lines))]
@@ -14,6 +14,8 @@ pub mod export;
 #[cfg(feature = "exr")]
 mod exr;
 pub mod goal_file;
+#[cfg(feature = "interchange")]
+pub mod info;
 mod letters;
 pub mod lighting;
 #[cfg(feature = "interchange")]
@@ -28,6 +30,7 @@ pub mod refraction;
 #[cfg(all(feature = "exr", feature = "interchange"))]
 pub mod report;
 mod stored_light;
+pub mod table;
 
 pub use animation::{Animation, AnimationFormat, Frames, write_animation};
 pub use drawing_png::{DrawingError, note_of_letters, rasterize, rasterize_clear, rasterize_within};

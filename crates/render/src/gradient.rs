@@ -2,13 +2,13 @@
 
 use super::sweep::{Sweep, SweepError, SweptStone, VariedDesign, with_numbers};
 use super::sweep_key::SweepKey;
-use brillianteer_base::Unit;
-use brillianteer_base::Watch;
+use brillianteer_base::{ByName, Unit, Watch};
 use brillianteer_cut::{Cut, Design, ScaleError, ScaledSide, SideSlope};
 use brillianteer_math::{Facet, Plane};
-use brillianteer_measure::{MeasureDerivatives, MeasureName};
+use brillianteer_measure::{Interval, MeasureDerivatives, MeasureName};
 use brillianteer_scene::{Specimen, SpecimenError, Stone};
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// The change of an angle in degrees or of a part in percent by which the derivative of the planes is found. With
@@ -30,7 +30,7 @@ const KINK: f64 = 1e-5;
 const ROUNDING: f64 = 1e-9;
 
 /// The derivatives of one measure by some numbers of a design.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeasureGradient {
     /// The measure.
     pub name: MeasureName,
@@ -60,12 +60,51 @@ struct KeyChanges {
 }
 
 /// A stone's measures, with the derivatives of some of them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GradedStone {
     /// The measures and the weight.
     pub stone: SweptStone,
     /// The derivatives of the measures that were requested, in that order.
     pub gradients: Vec<MeasureGradient>,
+}
+
+/// A measure and its derivatives, by the names of the numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MeasureSlopes {
+    /// The measure with its bound; `None` where the stone has no such measure.
+    pub value: Option<Interval>,
+    /// The derivative by each number, per its unit, in the light that was followed.
+    pub per: ByName<MeasureSlope>,
+}
+
+/// The derivative of a measure by a number, per the number's unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum MeasureSlope {
+    /// The derivative at the value.
+    Smooth(f64),
+    /// The derivatives on both sides of a value at which the stone's planes have a kink.
+    Kink {
+        /// The derivative below the value.
+        below: f64,
+        /// The derivative above the value.
+        above: f64,
+    },
+}
+
+impl GradedStone {
+    /// Returns the measures and their derivatives by name; `keys` are those by which they were taken.
+    pub fn by_name(&self, keys: &[SweepKey]) -> ByName<MeasureSlopes> {
+        let slopes = |each: &MeasureGradient| {
+            let slope = |place: usize| match each.sides[place] {
+                Some([below, above]) => MeasureSlope::Kink { below, above },
+                None => MeasureSlope::Smooth(each.per[place]),
+            };
+            let per = keys.iter().enumerate().map(|(place, key)| (key.to_string(), slope(place))).collect();
+            MeasureSlopes { value: each.name.of(&self.stone.measures), per }
+        };
+        self.gradients.iter().map(|each| (each.name.to_string(), slopes(each))).collect()
+    }
 }
 
 /// The planes of a stone by the names of its facets.

@@ -25,7 +25,7 @@ mod tests;
 
 pub use card::{Backend, Card, NoCard};
 pub use check::{JobError, OutOfRange};
-pub use gradient::{GradedStone, LEAST_TIER_DEG, MeasureGradient, PlaneChanges};
+pub use gradient::{GradedStone, LEAST_TIER_DEG, MeasureGradient, MeasureSlope, MeasureSlopes, PlaneChanges};
 pub use job::{
     FiguresProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, mixture_note,

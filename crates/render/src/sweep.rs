@@ -12,6 +12,7 @@ use brillianteer_cut::{
 use brillianteer_measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use brillianteer_optics::{DispersionError, INDICES, Material, line};
 use brillianteer_scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
@@ -81,7 +82,7 @@ pub struct Sweep {
 }
 
 /// The result of a sweep at one point.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweptStone {
     /// The measures of the light.
     pub measures: LightMeasures,

@@ -17,6 +17,7 @@ mod objective;
 mod others;
 mod outcome;
 mod run;
+mod summary;
 mod terms;
 
 #[cfg(test)]
@@ -31,3 +32,7 @@ pub use objective::Objective;
 pub use others::{OtherMeasure, estimated_classes};
 pub use outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 pub use run::{DesignSearch, SearchOptions};
+pub use summary::{
+    AuditChange, BeforeAndAfter, KindChange, LimitedFigure, SearchSummary, SearchedNumber, UnweighedMeasure,
+    WeighedMeasure,
+};

@@ -3,7 +3,9 @@
 use super::appraisal::SearchError;
 use super::goal::{AtLeastAtMost, Goal};
 use super::kept_shape::{FindingCounts, audit_of, estimated_class, usual_limits};
-use brillianteer_cut::{CutClass, Design, Proportion, ProportionReport, SheetFigures, SmallestParts};
+use brillianteer_cut::{
+    CutClass, Design, Proportion, ProportionReport, SheetFigures, SmallestParts, TierZone,
+};
 use brillianteer_optics::{critical_angle, line};
 use brillianteer_scene::{Specimen, Stone};
 
@@ -136,7 +138,7 @@ fn figures(stone: &Stone) -> SheetFigures {
 /// Returns the slope of the flattest facet of the pavilion, degrees; 90 without one.
 fn flattest_deg(stone: &Stone) -> f64 {
     let tiers = ProportionReport::of(&stone.polytope, stone.names()).tiers;
-    let pavilion = tiers.iter().filter(|tier| tier.zone == "pavilion");
+    let pavilion = tiers.iter().filter(|tier| tier.zone == TierZone::Pavilion);
     pavilion.map(|tier| tier.slope_deg.least).fold(90.0, f64::min)
 }
 

@@ -1,10 +1,9 @@
 //! The parts of a graphics card's time, as far as the times and counts of its dispatches show them.
 
-use super::CardLine;
+use super::report::CardLine;
 use brillianteer_base::Failure;
 use brillianteer_render::RenderError;
 use brillianteer_trace::gpu::{CardPeak, DispatchTotals, Gpu};
-use serde_json::{Value, json};
 use std::sync::OnceLock;
 
 /// The operations of f32 in one plane test of `nearer` in `leaving.wgsl`: two dot products, a difference, two products and two
@@ -59,7 +58,7 @@ pub fn line(
         busy_lanes,
     };
     let found = CardUse::new(&work, peak);
-    (found.line(), found.json())
+    found.described()
 }
 
 /// Describes the peaks of the card in words.
@@ -124,12 +123,14 @@ impl CardUse {
         )
     }
 
-    fn json(&self) -> Value {
-        let parts: serde_json::Map<String, Value> =
-            self.parts.iter().map(|(name, part)| ((*name).to_owned(), json!(part))).collect();
-        json!({
-            "of_peak": self.of_peak(), "bound": self.bound(), "longest_dispatch_ms": self.longest_s * 1e3, "parts": parts,
-        })
+    fn described(&self) -> CardLine {
+        CardLine {
+            text: self.line(),
+            of_peak: self.of_peak(),
+            bound: self.bound(),
+            longest_dispatch_ms: self.longest_s * 1e3,
+            parts: self.parts.into_iter().collect(),
+        }
     }
 }
 

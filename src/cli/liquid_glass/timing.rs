@@ -1,5 +1,6 @@
 //! The times of the parts of a pane's drawing, and the differences between the qualities.
 
+use brillianteer_paper::table::{Column, Table};
 use brillianteer_picture::Linear;
 #[cfg(feature = "gpu")]
 use brillianteer_picture::liquid_glass::PanesOnCard;
@@ -19,26 +20,28 @@ const QUALITIES: [(PaneQuality, &str); 3] =
 
 /// Returns the table of times, in milliseconds: of each part of a frame, and of the shape that is computed once.
 pub fn table(asked: &GlassPane, background: &Panorama) -> String {
-    let mut lines = vec!["time in ms                      high   medium      low".to_owned()];
+    let quality = |(_, name): (PaneQuality, &'static str)| Column::right(name, 9).digits(2);
+    let columns = std::iter::once(Column::left("time in ms", 27)).chain(QUALITIES.map(quality));
+    let mut table = Table::headed(columns.collect::<Vec<_>>());
     let of = |quality| GlassPane { quality, ..*asked };
     let columns = QUALITIES.map(|(quality, _)| times(&of(quality), background));
     for (row, (what, _)) in columns[0].iter().enumerate() {
-        let numbers: String = columns.iter().map(|column| format!("{:9.2}", column[row].1)).collect();
-        lines.push(format!("{what:<27}{numbers}"));
+        let numbers = columns.iter().map(|column| column[row].1.into());
+        table.row(std::iter::once((*what).into()).chain(numbers));
     }
     let best = pane(&of(PaneQuality::High), background, 1);
     for (quality, name) in &QUALITIES[1..] {
         let (mean, greatest, share) = apart(&best, &pane(&of(*quality), background, 1));
-        lines.push(format!(
-            "{:<27}mean {mean:.3}, greatest {greatest:.1} of 255 in linear light; {:.1} % of the pixels differ by half a \
-             step and more",
-            format!("high from {name}"),
+        let differences = format!(
+            "mean {mean:.3}, greatest {greatest:.1} of 255 in linear light; {:.1} % of the pixels differ by half a step \
+             and more",
             100.0 * share
-        ));
+        );
+        table.pair(&format!("high from {name}"), differences);
     }
     #[cfg(feature = "gpu")]
-    lines.push(on_card(asked, background));
-    lines.join("\n")
+    table.pair("by shader", on_card(asked, background));
+    table.to_string()
 }
 
 /// Returns the parts of a frame with the time of each. The time of an effect is the time by which it lengthens the
@@ -109,6 +112,5 @@ fn on_card(asked: &GlassPane, background: &Panorama) -> String {
             gpu.name()
         ))
     };
-    let found = measured().unwrap_or_else(|error| error.to_string());
-    format!("{:<27}{found}", "by shader")
+    measured().unwrap_or_else(|error| error.to_string())
 }

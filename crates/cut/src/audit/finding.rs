@@ -62,6 +62,22 @@ impl FindingKind {
         }
     }
 
+    /// Returns the key of the kind, by which programs know it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::NearMiss => "near_miss",
+            Self::SplitMeet => "split_meet",
+            Self::SmallFacet => "small_facet",
+            Self::ThinFacet => "thin_facet",
+            Self::BelowCritical => "below_critical",
+            Self::UnevenGirdle => "uneven_girdle",
+            Self::Outline => "outline",
+            Self::Symmetry => "symmetry",
+            Self::StatedSymmetry => "stated_symmetry",
+            Self::UnusedPlane => "unused_plane",
+        }
+    }
+
     /// Returns the possible meaning of a finding of this kind, in a sentence.
     pub fn meaning(self) -> &'static str {
         match self {

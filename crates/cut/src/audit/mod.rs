@@ -24,6 +24,7 @@ pub use symmetry::{MOST_KEEP, OFF_SYMMETRY};
 
 use corners::Corners;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use subject::Subject;
 
 /// The result of an audit.
@@ -52,6 +53,22 @@ impl Audit {
     /// Returns the findings of one kind.
     pub fn of_kind(&self, kind: FindingKind) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(move |finding| finding.kind == kind)
+    }
+}
+
+/// The result of an audit with its counts, as programs read it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CountedAudit {
+    /// The number of findings of each kind, also of those without any, by its [key](FindingKind::key) and sorted by it.
+    pub counts: BTreeMap<String, usize>,
+    /// The findings, as in [`Audit`].
+    pub findings: Vec<Finding>,
+}
+
+impl From<Audit> for CountedAudit {
+    fn from(audit: Audit) -> Self {
+        let count = |kind: FindingKind| (kind.key().to_owned(), audit.of_kind(kind).count());
+        Self { counts: FindingKind::ALL.map(count).into(), findings: audit.findings }
     }
 }
 

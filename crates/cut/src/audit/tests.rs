@@ -219,6 +219,17 @@ fn a_symmetry_that_the_file_states_and_the_facets_lack_is_one_finding() {
 }
 
 #[test]
+fn counts_have_the_keys_of_the_kinds_also_where_nothing_is_found() {
+    for kind in FindingKind::ALL {
+        assert_eq!(serde_json::to_value(kind).unwrap(), kind.key());
+    }
+    let audit = audited(&eight_main_highlight(0.005), None, Some(50.0));
+    let counted = CountedAudit::from(audit.clone());
+    assert_eq!(counted.counts.values().sum::<usize>(), audit.findings.len());
+    assert!(counted.counts.len() == FindingKind::ALL.len() && counted.counts["unused_plane"] == 0);
+}
+
+#[test]
 fn findings_come_back_from_json() {
     let audit = audited(&eight_main_highlight(0.005), None, Some(50.0));
     assert!(audit.findings.len() > 8);

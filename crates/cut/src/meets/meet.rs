@@ -1,12 +1,14 @@
 //! Meets: the statements of cutters' instructions about the place of a tier's facets.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The word that stands for any girdle facet in the names of a corner.
 pub const ANY_GIRDLE: &str = "girdle";
 
 /// The rule that gives the facets of a tier their place.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Meet {
     /// The cutter chooses the distance, so the tier's own distance stands.
     Given(GivenSize),
@@ -20,7 +22,8 @@ pub enum Meet {
 }
 
 /// The size that a cutter chooses by the distance of a tier.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum GivenSize {
     /// The size of the stone, its length or width, or that of a facet.
     Size,
@@ -31,7 +34,8 @@ pub enum GivenSize {
 }
 
 /// A point through which a facet passes, on the stone as it is cut so far.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum MeetPoint {
     /// The point where the axis leaves the stone on the side of the tier.
     Centre {

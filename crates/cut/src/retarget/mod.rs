@@ -16,7 +16,7 @@ use super::{
 };
 use brillianteer_math::{Plane, Polytope, grouped};
 use brillianteer_optics::{critical_angle, line};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A vertex nearer to the lowest one than this, in units of the stone's depth, is at the culet.
 const AT_CULET: f64 = 1e-6;
@@ -52,7 +52,7 @@ pub enum RetargetRule {
 }
 
 /// A tier before and after a design was fitted to another material.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RetargetedTier {
     /// The name that the facets share.
     pub name: String,
@@ -65,7 +65,7 @@ pub struct RetargetedTier {
 }
 
 /// A design that was fitted to another material.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Retargeted {
     /// The new design.
     pub design: Design,

@@ -7,7 +7,7 @@ use super::{Outline, Size, SizeError};
 use brillianteer_math::{Calipers, Plane, Polytope, PolytopeError, SolidRef, hull, span};
 use brillianteer_optics::Material;
 use glam::DVec2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::str::FromStr;
 
@@ -28,7 +28,7 @@ const HALVINGS: u32 = 100;
 const WEIGHED: f64 = 1e-6;
 
 /// A box of rough, mm.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rough {
     /// The sides: length, width, and the depth, along which the stone's axis lies; each 0.1 to 1000 mm.
     pub sides_mm: [f64; 3],
@@ -99,7 +99,7 @@ pub enum RoughError {
 }
 
 /// The quantity that keeps a stone from being larger.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FitLimit {
     /// The length and width of the rough.
@@ -113,7 +113,7 @@ pub enum FitLimit {
 }
 
 /// A finished stone.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Finished {
     /// The diameter, mm, as `docs/formats.md` defines it.
     pub diameter_mm: f64,
@@ -133,6 +133,56 @@ pub struct Finished {
     /// The depth of the rough that the stone leaves, by which its girdle could be thicker, mm; 0 where a weight is
     /// requested.
     pub depth_left_mm: f64,
+}
+
+/// The stone that a piece of rough gives, or that has a requested weight or size, with its yield.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct YieldReport {
+    /// The name of the design.
+    pub name: String,
+    /// The name of the material.
+    pub material: String,
+    /// The density of the material, g/cm³; `None` where it is not known.
+    pub density: Option<f64>,
+    /// The sides of the rough, mm; `None` where no rough is given.
+    pub rough_mm: Option<[f64; 3]>,
+    /// The weight of the rough, carats; `None` where it is not given.
+    pub rough_carats: Option<f64>,
+    /// The stone.
+    pub finished: Finished,
+    /// The weight of the stone, carats; `None` where the density is not known.
+    pub carats: Option<f64>,
+    /// The volume of the stone in percent of that of the rough.
+    pub yield_of_box_percent: Option<f64>,
+    /// The weight of the stone in percent of that of the rough.
+    pub yield_of_weight_percent: Option<f64>,
+}
+
+impl YieldReport {
+    /// Describes a stone of a design's name and of this material, cut from a piece of rough, and its weight in carats, as far
+    /// as they are known.
+    pub fn of(
+        name: &str,
+        material: &Material,
+        finished: Finished,
+        rough: Option<Rough>,
+        rough_carats: Option<f64>,
+    ) -> Self {
+        let carats = material.carats(finished.volume_mm3);
+        let of_weight = carats.zip(rough_carats).map(|(carats, rough)| carats / rough);
+        let of_box = rough.map(|rough| finished.yield_of(rough.volume_mm3()));
+        Self {
+            name: name.to_owned(),
+            material: material.name.clone(),
+            density: material.density,
+            rough_mm: rough.map(|rough| rough.sides_mm),
+            rough_carats,
+            finished,
+            carats,
+            yield_of_box_percent: of_box.map(|part| 100.0 * part),
+            yield_of_weight_percent: of_weight.map(|part| 100.0 * part),
+        }
+    }
 }
 
 impl Finished {

@@ -2,6 +2,7 @@
 
 use crate::panels::figure_lines::{Counting, FigureLine, energy, lines, zones};
 use brillianteer_math::{fixed, signed};
+use brillianteer_paper::table::{Column, Table};
 use brillianteer_scene::Glare;
 use brillianteer_session::model::{Model, eye::Eye, figures::ShownFigures};
 use brillianteer_session::studio::{Grade, Tilts, Which};
@@ -79,17 +80,21 @@ fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "in brackets the difference from {other}");
     }
+    let mut table = Table::new([
+        Column::left("", 14),
+        Column::right("", 8).digits(3),
+        Column::text("").after(1),
+        Column::text("").after(1),
+    ]);
     for line in lines {
-        let (name, percent) = (line.figure.name, 100.0 * line.share);
-        let _ = match (line.other, line.difference()) {
-            (None, _) => writeln!(text, "{name:<14}{percent:>8.3} %"),
-            (Some(_), Some(difference)) => {
-                writeln!(text, "{name:<14}{percent:>8.3} % ({})", signed(100.0 * difference, 3))
-            }
-            (Some(_), None) => writeln!(text, "{name:<14}{percent:>8.3} % (…)"),
+        let difference = match (line.other, line.difference()) {
+            (None, _) => String::new(),
+            (Some(_), Some(difference)) => format!("({})", signed(100.0 * difference, 3)),
+            (Some(_), None) => "(…)".to_owned(),
         };
+        table.row([line.figure.name.into(), (100.0 * line.share).into(), "%".into(), difference.into()]);
     }
-    text
+    format!("{text}{table}\n")
 }
 
 /// Returns the figures as comma-separated values (RFC 4180). The cell is empty where a figure has no value for a way

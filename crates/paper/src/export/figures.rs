@@ -1,14 +1,130 @@
-//! The figures of a view, and their JSON.
+//! The figures of a view, and the object in which programs read them.
 
 use super::event::Reporter;
 use super::viewing::{Viewing, note};
-use brillianteer_base::{Failure, Watch};
+use brillianteer_base::{ByName, Failure, Watch};
 use brillianteer_measure::{Bounds, Estimate, Measured, UNRESOLVED};
 use brillianteer_picture::Scoped;
 use brillianteer_render::{Backend, FiguresProduct, Product, Renderer};
 use brillianteer_scene::{Film, Glare, Lean, Projection, Viewpoint};
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
+
+/// The figures of a view and the way of measuring, by name. Light and areas are parts of the silhouette, from 0 to 1; the zones
+/// are the bands of the scope, the lowest last, and a zone that the observer's head covers is 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ViewFigures {
+    /// The stone's file.
+    pub file: String,
+    /// The name of the design.
+    pub name: String,
+    /// The name of the scope.
+    pub scope: String,
+    /// The area of the silhouette by parallel rays, squared girdle radii.
+    pub silhouette_area: f64,
+    /// Light from inside the stone that comes from shining bands above the horizon.
+    pub light_return: f64,
+    /// The same with the glare of those bands; `None` where glare is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub light_return_with_glare: Option<f64>,
+    /// Glare, by the zone that the outer surface reflects; `None` where glare is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<ByName<f64>>,
+    /// The glare of all zones, only where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub glare_left_out: Option<f64>,
+    /// Light from inside the stone, by the zone that it comes from.
+    pub transmitted: ByName<f64>,
+    /// The part of the face whose strongest exit lies in the zone, and `undecided`: the part where that is not known.
+    pub strongest_exit_area: ByName<f64>,
+    /// Light that the material absorbs.
+    pub absorbed: f64,
+    /// Light that beams or rays did not follow to its end.
+    pub unresolved: f64,
+    /// The number of beams in one domain of the view's symmetry, or of rays that hit the stone.
+    pub beams: usize,
+    /// The estimated parts of the figures; `None` where nothing is estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimated: Option<EstimatedFigures>,
+    /// The time for tracing and summing, seconds; `None` where it was not requested, because it differs from run to run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// The name of the material.
+    pub material: String,
+    /// True where the material's absorption was chosen for its looks and not measured.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub colour_is_illustrative: bool,
+    /// The refractive index that was traced.
+    pub index: f64,
+    /// The wavelength of index and absorption, nm; `None` where the request gave the index instead.
+    pub wavelength_nm: Option<f64>,
+    /// The half angle of the observer's head, from which no light comes, degrees.
+    pub head_deg: f64,
+    /// The tracer that was used: `beam`, `ray` or `gpu`.
+    pub tracer: String,
+    /// True where polarisation was followed.
+    pub polarised: bool,
+    /// The viewpoint.
+    pub view: SeenFrom,
+    /// The largest standard error of the light of any zone; `None` for beams.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standard_error: Option<f64>,
+}
+
+/// The parts of figures that are estimated, which the figures contain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimatedFigures {
+    /// Estimated light from inside the stone, by zone.
+    pub transmitted: ByName<f64>,
+    /// The estimated part of the face, by the zone of its strongest exit.
+    pub strongest_exit_area: ByName<f64>,
+    /// Estimated light that is absorbed.
+    pub absorbed: f64,
+    /// Light that the estimate does not place either.
+    pub unresolved: f64,
+    /// The number of rays.
+    pub rays: u64,
+    /// The standard errors of the estimate.
+    pub standard_error: EstimateErrors,
+}
+
+/// The standard errors of estimated figures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimateErrors {
+    /// That of the light return.
+    pub light_return: Option<f64>,
+    /// That of the light of each zone.
+    pub transmitted: ByName<f64>,
+    /// That of the area of each zone's strongest exits.
+    pub strongest_exit_area: ByName<f64>,
+    /// That of the light that is absorbed.
+    pub absorbed: f64,
+}
+
+/// A viewpoint by name. All angles are in degrees.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SeenFrom {
+    /// The side that faces the eye while nothing is tilted: `table` or `culet`.
+    pub side: String,
+    /// The tilt of the stone; 0 where the eye is tilted.
+    pub tilt: f64,
+    /// The tilt of the eye; 0 where the stone is tilted.
+    pub eye_tilt: f64,
+    /// The azimuth of the tilt.
+    pub azimuth: f64,
+    /// The projection.
+    pub projection: SeenBy,
+}
+
+/// A projection by name.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SeenBy {
+    /// Parallel rays.
+    Orthographic,
+    /// An eye at this distance from the origin, girdle radii.
+    Perspective(f64),
+}
 
 /// Figures, with the stone, scope and tracer that they belong to.
 pub struct FigureReport<'a> {
@@ -56,96 +172,84 @@ pub fn measure<'a>(
 }
 
 impl FigureReport<'_> {
-    /// Returns the figures and the way of measuring, in the form of docs/formats.md.
+    /// Returns the figures and the way of measuring by name.
     ///
-    /// Energies are fractions of the silhouette. The time taken is included only if `timing`, so that equal input gives
-    /// equal files.
-    pub fn json(&self, timing: bool) -> Value {
-        let (viewing, measured) = (&self.viewing, &self.measured);
+    /// The time taken is included only if `timing`, so that equal input gives equal files.
+    pub fn figures(&self, timing: bool) -> ViewFigures {
+        let Self { viewing, measured, .. } = self;
         let (figures, material) = (&measured.figures, &viewing.specimen.material);
-        let mut strongest = self.zones(&figures.strongest_exit_area);
-        strongest.insert("undecided".into(), json!(figures.strongest_exit_undecided));
-        let glare = viewing.glare.unwrap_or(Glare::Included);
-        let mut value = json!({
-            "file": viewing.file,
-            "name": viewing.specimen.design.name,
-            "scope": measured.scope.name,
-            "silhouette_area": figures.silhouette_area,
-            "light_return": measured.light_return(),
-        });
-        let mut set = |key: &str, what: Value| value[key] = what;
-        match glare {
-            Glare::Included => {
-                set("light_return_with_glare", json!(measured.light_return() + measured.glare_return()));
-                set("surface", Value::Object(self.zones(&figures.surface)));
-            }
-            Glare::LeftOut => set("glare_left_out", json!(measured.glare())),
+        let has_glare = viewing.glare.unwrap_or(Glare::Included) == Glare::Included;
+        let mut strongest_exit_area = self.zones(&figures.strongest_exit_area);
+        strongest_exit_area.set("undecided", figures.strongest_exit_undecided);
+        let with_glare = measured.light_return() + measured.glare_return();
+        ViewFigures {
+            file: viewing.file.to_owned(),
+            name: viewing.specimen.design.name.clone(),
+            scope: measured.scope.name.clone(),
+            silhouette_area: figures.silhouette_area,
+            light_return: measured.light_return(),
+            light_return_with_glare: has_glare.then_some(with_glare),
+            surface: has_glare.then(|| self.zones(&figures.surface)),
+            glare_left_out: (!has_glare).then(|| measured.glare()),
+            transmitted: self.zones(&figures.transmitted),
+            strongest_exit_area,
+            absorbed: figures.absorbed,
+            unresolved: figures.unresolved,
+            beams: figures.beams,
+            estimated: figures.estimate.as_ref().map(|estimate| self.estimated(estimate)),
+            seconds: timing.then_some(self.seconds),
+            material: material.name.clone(),
+            colour_is_illustrative: material.colour_is_illustrative,
+            index: viewing.medium.index,
+            wavelength_nm: viewing.wavelength_nm,
+            head_deg: viewing.head_deg,
+            tracer: self.backend.name().to_owned(),
+            polarised: viewing.polarised,
+            view: SeenFrom::of(&viewing.viewpoint),
+            standard_error: (!self.backend.is_beams()).then_some(figures.standard_error),
         }
-        set("transmitted", Value::Object(self.zones(&figures.transmitted)));
-        set("strongest_exit_area", Value::Object(strongest));
-        set("absorbed", json!(figures.absorbed));
-        set("unresolved", json!(figures.unresolved));
-        set("beams", json!(figures.beams));
-        if let Some(estimate) = &figures.estimate {
-            set("estimated", self.estimated(estimate));
-        }
-        if timing {
-            set("seconds", json!(self.seconds));
-        }
-        set("material", json!(material.name));
-        if material.colour_is_illustrative {
-            set("colour_is_illustrative", json!(true));
-        }
-        set("index", json!(viewing.medium.index));
-        set("wavelength_nm", json!(viewing.wavelength_nm));
-        set("head_deg", json!(viewing.head_deg));
-        set("tracer", json!(self.backend.name()));
-        set("polarised", json!(viewing.polarised));
-        set("view", seen_from(&viewing.viewpoint));
-        if !self.backend.is_beams() {
-            set("standard_error", json!(figures.standard_error));
-        }
-        value
     }
 
     /// Returns the parts of the figures that are estimated, and their standard errors.
-    fn estimated(&self, estimate: &Estimate) -> Value {
-        let zones = |values: &[f64]| Value::Object(self.zones(values));
-        json!({
-            "transmitted": zones(&estimate.transmitted),
-            "strongest_exit_area": zones(&estimate.strongest_exit_area),
-            "absorbed": estimate.absorbed,
-            "unresolved": estimate.unresolved,
-            "rays": estimate.rays,
-            "standard_error": {
-                "light_return": self.measured.light_return_error(),
-                "transmitted": zones(&estimate.standard_errors()),
-                "strongest_exit_area": zones(&estimate.area_errors()),
-                "absorbed": estimate.absorbed_error,
+    fn estimated(&self, estimate: &Estimate) -> EstimatedFigures {
+        EstimatedFigures {
+            transmitted: self.zones(&estimate.transmitted),
+            strongest_exit_area: self.zones(&estimate.strongest_exit_area),
+            absorbed: estimate.absorbed,
+            unresolved: estimate.unresolved,
+            rays: estimate.rays,
+            standard_error: EstimateErrors {
+                light_return: self.measured.light_return_error(),
+                transmitted: self.zones(&estimate.standard_errors()),
+                strongest_exit_area: self.zones(&estimate.area_errors()),
+                absorbed: estimate.absorbed_error,
             },
-        })
+        }
     }
 
     /// Returns the value of each band by name, the lowest band last. Bands that the observer's head hides have the value 0.
-    fn zones(&self, values: &[f64]) -> Map<String, Value> {
+    fn zones(&self, values: &[f64]) -> ByName<f64> {
         let bands = &self.scoped.scope.bands;
-        let all = bands.iter().skip(1).chain(bands.first()).map(|b| (b.name.clone(), json!(0.0)));
-        let seen = self.measured.scope.bands.iter().zip(values).map(|(b, v)| (b.name.clone(), json!(v)));
+        let all = bands.iter().skip(1).chain(bands.first()).map(|band| (band.name.clone(), 0.0));
+        let seen =
+            self.measured.scope.bands.iter().zip(values).map(|(band, value)| (band.name.clone(), *value));
         all.chain(seen).collect()
     }
 }
 
-/// Returns the JSON of a viewpoint.
-pub(super) fn seen_from(viewpoint: &Viewpoint) -> Value {
-    let tilt = |lean| if viewpoint.lean == lean { viewpoint.tilt_deg } else { 0.0 };
-    json!({
-        "side": viewpoint.side.name(),
-        "tilt": tilt(Lean::Stone),
-        "eye_tilt": tilt(Lean::Eye),
-        "azimuth": viewpoint.azimuth_deg,
-        "projection": match viewpoint.projection {
-            Projection::Orthographic => json!("orthographic"),
-            Projection::Perspective { distance } => json!({ "perspective": distance }),
-        },
-    })
+impl SeenFrom {
+    /// Describes a viewpoint.
+    pub(super) fn of(viewpoint: &Viewpoint) -> Self {
+        let tilt = |lean| if viewpoint.lean == lean { viewpoint.tilt_deg } else { 0.0 };
+        Self {
+            side: viewpoint.side.name().to_owned(),
+            tilt: tilt(Lean::Stone),
+            eye_tilt: tilt(Lean::Eye),
+            azimuth: viewpoint.azimuth_deg,
+            projection: match viewpoint.projection {
+                Projection::Orthographic => SeenBy::Orthographic,
+                Projection::Perspective { distance } => SeenBy::Perspective(distance),
+            },
+        }
+    }
 }

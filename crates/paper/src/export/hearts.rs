@@ -1,4 +1,4 @@
-//! The figures of a stone's hearts and arrows, and their JSON.
+//! The figures of a stone's hearts and arrows, and the object in which programs read them.
 
 use super::viewing::Viewing;
 use brillianteer_base::{Failure, Watch};
@@ -6,10 +6,31 @@ use brillianteer_measure::{
     ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows,
 };
 use brillianteer_scene::VIEWER_CONES_DEG;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// The default part of the light that may stay unresolved in hearts and arrows.
 const UNRESOLVED: f64 = 1e-3;
+
+/// The hearts and arrows of a stone and the way of measuring, by name.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ViewHearts {
+    /// The stone's file.
+    pub file: String,
+    /// The name of the design.
+    pub name: String,
+    /// The figures of the patterns.
+    pub hearts_and_arrows: HeartsAndArrows,
+    /// The deviations of the facets that make the patterns.
+    pub deviations: Vec<ClassDeviations>,
+    /// The name of the material.
+    pub material: String,
+    /// The refractive index that was traced.
+    pub index: f64,
+    /// The wavelength of the index, nm; `None` where the request gave the index instead.
+    pub wavelength_nm: Option<f64>,
+    /// True where polarisation was followed.
+    pub polarised: bool,
+}
 
 /// Hearts and arrows, with the stone that they belong to.
 pub struct HeartsReport<'a> {
@@ -43,18 +64,18 @@ pub fn hearts<'a>(viewing: &Viewing<'a>, watch: Watch) -> Result<HeartsReport<'a
 }
 
 impl HeartsReport<'_> {
-    /// Returns the figures and the way of measuring, in the form of docs/formats.md.
-    pub fn json(&self) -> Value {
+    /// Returns the figures and the way of measuring by name.
+    pub fn figures(&self) -> ViewHearts {
         let viewing = &self.viewing;
-        json!({
-            "file": viewing.file,
-            "name": viewing.specimen.design.name,
-            "hearts_and_arrows": self.patterns,
-            "deviations": self.deviations,
-            "material": viewing.specimen.material.name,
-            "index": viewing.medium.index,
-            "wavelength_nm": viewing.wavelength_nm,
-            "polarised": viewing.polarised,
-        })
+        ViewHearts {
+            file: viewing.file.to_owned(),
+            name: viewing.specimen.design.name.clone(),
+            hearts_and_arrows: self.patterns.clone(),
+            deviations: self.deviations.clone(),
+            material: viewing.specimen.material.name.clone(),
+            index: viewing.medium.index,
+            wavelength_nm: viewing.wavelength_nm,
+            polarised: viewing.polarised,
+        }
     }
 }

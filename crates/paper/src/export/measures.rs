@@ -1,9 +1,9 @@
-//! The measures of a view's light, and their JSON.
+//! The measures of a view's light, and the object in which programs read them.
 
 use super::event::{Event, Reporter};
-use super::figures::seen_from;
+use super::figures::SeenFrom;
 use super::viewing::{Viewing, note};
-use brillianteer_base::{Failure, Watch};
+use brillianteer_base::{ByName, Failure, Watch};
 use brillianteer_measure::{
     Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings, SampledNumber,
     hemisphere_return,
@@ -11,10 +11,54 @@ use brillianteer_measure::{
 use brillianteer_optics::line;
 use brillianteer_render::{MeasuresProduct, Product, Renderer};
 use brillianteer_scene::{DomeLight, Film};
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
 
 /// The default part of the light that may stay unresolved in measures.
 const UNRESOLVED: f64 = 1e-3;
+
+/// The measures of a view's light and the way of measuring, by name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ViewMeasures {
+    /// The stone's file.
+    pub file: String,
+    /// The name of the design.
+    pub name: String,
+    /// The measures, each as an interval: parts of the silhouette's light or area, unless [`LightMeasures`] says otherwise.
+    pub measures: ByName<Interval>,
+    /// The weighted light return, a part of what a white sheet in the stone's place returns; `None` where it was not taken.
+    pub wlr: Option<SampledNumber>,
+    /// The mean angle between colours, degrees; `None` where no light comes from above.
+    pub spread_deg: Option<f64>,
+    /// The part of the light that was not followed to its end.
+    pub unresolved: f64,
+    /// True where the memory for beams ended the work early.
+    pub cut_short: bool,
+    /// The name of the material.
+    pub material: String,
+    /// The refractive index that was traced.
+    pub index: f64,
+    /// The indices at Fraunhofer B and G, between which colours spread.
+    pub indices_of_colours: [f64; 2],
+    /// The wavelength of index and absorption, nm; `None` where the request gave the index instead.
+    pub wavelength_nm: Option<f64>,
+    /// The half angle of the head in obstruction, extinction and contrast, degrees.
+    pub head_deg: f64,
+    /// The angle over which colours must spread before an eye sees them apart, degrees.
+    pub blur_deg: f64,
+    /// The diameter of the stone, mm, by which its pattern is seen.
+    pub diameter_mm: Option<f64>,
+    /// The length on the stone that the eye resolves, mm.
+    pub eye_resolves_mm: Option<f64>,
+    /// The angle by which the stone rocks, degrees; `None` where scintillation was not taken.
+    pub rock_deg: Option<f64>,
+    /// True where polarisation was followed.
+    pub polarised: bool,
+    /// The viewpoint.
+    pub view: SeenFrom,
+    /// True where the stone is frosted: the measures are those of the polished stone.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub as_polished: bool,
+}
 
 /// Measures of light, with the stone and settings that they belong to.
 pub struct MeasureReport<'a> {
@@ -95,35 +139,30 @@ impl MeasureReport<'_> {
         all.filter_map(|name| Some((name, name.of(&self.measures)?)))
     }
 
-    /// Returns the measures and the way of measuring, in the form of docs/formats.md.
-    pub fn json(&self) -> Value {
-        let (viewing, material) = (&self.viewing, &self.viewing.specimen.material);
-        let interval = |of: Interval| json!({ "least": of.least, "most": of.most });
-        let measures: Map<String, Value> =
-            self.by_name().map(|(name, of)| (name.to_string(), interval(of))).collect();
-        let mut value = json!({
-            "file": viewing.file,
-            "name": viewing.specimen.design.name,
-            "measures": measures,
-            "wlr": self.weighted_return,
-            "spread_deg": self.measures.spread_deg,
-            "unresolved": self.measures.unresolved,
-            "cut_short": self.measures.is_cut_short,
-            "material": material.name,
-            "index": viewing.medium.index,
-            "indices_of_colours": self.settings.indices,
-            "wavelength_nm": viewing.wavelength_nm,
-            "head_deg": self.settings.head_deg,
-            "blur_deg": self.settings.blur_deg,
-            "diameter_mm": self.settings.pattern.map(|pattern| 2.0 * pattern.unit_mm),
-            "eye_resolves_mm": self.settings.pattern.map(|pattern| pattern.resolves_mm),
-            "rock_deg": self.settings.pattern.and_then(|pattern| pattern.rock_deg),
-            "polarised": viewing.polarised,
-            "view": seen_from(&viewing.viewpoint),
-        });
-        if viewing.specimen.body.is_frosted() {
-            value["as_polished"] = json!(true);
+    /// Returns the measures and the way of measuring by name.
+    pub fn measures(&self) -> ViewMeasures {
+        let Self { viewing, settings, measures, .. } = self;
+        let pattern = settings.pattern;
+        ViewMeasures {
+            file: viewing.file.to_owned(),
+            name: viewing.specimen.design.name.clone(),
+            measures: self.by_name().map(|(name, of)| (name.to_string(), of)).collect(),
+            wlr: self.weighted_return,
+            spread_deg: measures.spread_deg,
+            unresolved: measures.unresolved,
+            cut_short: measures.is_cut_short,
+            material: viewing.specimen.material.name.clone(),
+            index: viewing.medium.index,
+            indices_of_colours: settings.indices,
+            wavelength_nm: viewing.wavelength_nm,
+            head_deg: settings.head_deg,
+            blur_deg: settings.blur_deg,
+            diameter_mm: pattern.map(|pattern| 2.0 * pattern.unit_mm),
+            eye_resolves_mm: pattern.map(|pattern| pattern.resolves_mm),
+            rock_deg: pattern.and_then(|pattern| pattern.rock_deg),
+            polarised: viewing.polarised,
+            view: SeenFrom::of(&viewing.viewpoint),
+            as_polished: viewing.specimen.body.is_frosted(),
         }
-        value
     }
 }

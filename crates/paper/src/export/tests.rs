@@ -273,9 +273,14 @@ fn figures_are_written_down_as_they_were_given() {
     let specimen = specimen();
     let viewpoint = Viewpoint { tilt_deg: 10.1, azimuth_deg: -30.0, lean: Lean::Eye, ..Viewpoint::default() };
     let viewing = Viewing { viewpoint, wavelength_nm: None, ..viewing(&specimen) };
-    let json = measure(&viewing, &Scoped::aset(), &mut Renderer::default(), &unwatched, &|_| Ok(()))
-        .unwrap()
-        .json(false);
+    let figures = |viewing: &Viewing| {
+        let report = measure(viewing, &Scoped::aset(), &mut Renderer::default(), &unwatched, &|_| Ok(()));
+        report.unwrap().figures(false)
+    };
+    let found = figures(&viewing);
+    let text = serde_json::to_string(&found).unwrap();
+    assert_eq!(serde_json::from_str::<ViewFigures>(&text).unwrap(), found);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     let view = r#"{"side":"table","tilt":0.0,"eye_tilt":10.1,"azimuth":-30.0,"projection":"orthographic"}"#;
     assert_eq!(json["view"].to_string(), view);
     assert_eq!(
@@ -284,11 +289,10 @@ fn figures_are_written_down_as_they_were_given() {
     );
     assert!(json["surface"]["head"].is_number() && json.get("standard_error").is_none());
     let rays = Viewing { viewpoint: viewpoint.facing(Some(Side::Culet)), ..in_perspective(viewing, 9.0) };
-    let json = measure(&rays, &Scoped::aset(), &mut Renderer::default(), &unwatched, &|_| Ok(()))
-        .unwrap()
-        .json(false);
-    assert_eq!((&json["tracer"], &json["view"]["side"]), (&"ray".into(), &"culet".into()));
-    assert!(json["standard_error"].is_number());
+    let found = figures(&rays);
+    assert_eq!((found.tracer.as_str(), found.view.side.as_str()), ("ray", "culet"));
+    assert_eq!(found.view.projection, SeenBy::Perspective(9.0));
+    assert!(found.standard_error.is_some_and(|error| error > 0.0));
 }
 
 #[test]

@@ -87,7 +87,7 @@ pub(super) fn tiers(stone: &ReportedStone) -> Option<ReportTable> {
         let (slope, distance) = (tier.slope_deg, tier.distance);
         let cells = [
             tier.name.replace('_', " "),
-            tier.zone.to_owned(),
+            tier.zone.name().to_owned(),
             tier.facets.to_string(),
             fixed(slope.mean, 2),
             range(slope, 2),
