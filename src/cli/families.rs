@@ -76,13 +76,13 @@ fn page(family: &'static Family) -> String {
         let source = family.range_source(row).map_or(String::new(), |source| format!(" ({source})"));
         let _ = write!(text, "\n    usual: {least} to {most}{source}\n    possible: {}", possible(row));
         let _ = write!(text, "\n    first cut: {}", value(family, row));
-        match row.default {
-            Some(default) => drop(write!(text, "; without the key: {default}")),
-            None if !row.moves.is_empty() => {
-                drop(write!(text, "; may stand in the place of {}", row.moves.join(", ")));
-            }
-            None => row.pair.into_iter().for_each(|other| drop(write!(text, "; or {other}"))),
-        }
+        let beside = match (row.default, row.pair) {
+            (Some(default), _) => format!("; without the key: {default}"),
+            _ if !row.moves.is_empty() => format!("; may stand in the place of {}", row.moves.join(", ")),
+            (None, Some(other)) => format!("; or {other}"),
+            (None, None) => String::new(),
+        };
+        text += &beside;
     }
     text
 }

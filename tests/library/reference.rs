@@ -186,7 +186,7 @@ fn one_call_measures_a_design_as_the_tracers_do() {
     let stone = Stone::new(&tolkowsky.facets().unwrap()).unwrap();
     let medium = Medium::clear(measured.index);
     let by_hand = by_beams(&traced(&stone, medium, &View::default(), 2e-3, true), &aset());
-    assert_eq!((&measured.figures, measured.tracer), (&by_hand, "beam"));
+    assert_eq!((&measured.figures, measured.tracer.as_str()), (&by_hand, "beam"));
     let zones = ["green", "red", "blue", "below"].map(|name| measured.zone(name).unwrap());
     let lit = zones[..3].iter().map(|z| z.transmitted).sum::<f64>();
     assert!((measured.light_return() - lit).abs() < 1e-15 && (0.74..0.76).contains(&lit), "{lit}");
