@@ -25,7 +25,7 @@ use brillianteer_trace::ray::{Camera, RayOptions, StoneTracer};
 use brillianteer_trace::sampling::SamplePass;
 use clap::Args;
 use glam::DVec2;
-use report::{BenchReport, CardLine, Row, Task};
+use report::{BenchReport, BenchRow, BenchTask, CardLine};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -68,7 +68,7 @@ impl BenchArguments {
             print(&format!("modern ideal; {threads} threads{}", card_peak()?))?;
         }
         let mut tasks = vec![];
-        let mut done = |task: Task| -> Result<(), Failure> {
+        let mut done = |task: BenchTask| -> Result<(), Failure> {
             if !self.json {
                 print(&format!("\n{}", task.table()))?;
             }
@@ -167,7 +167,7 @@ fn has_card() -> bool {
 }
 
 /// Times a job by each tracer that there is, from its planning to the finished picture.
-fn rows(job: &Job, load: &Load) -> Result<Vec<Row>, Failure> {
+fn rows(job: &Job, load: &Load) -> Result<Vec<BenchRow>, Failure> {
     let row = |tracer: Wanted| {
         // Exact beams have no limit of bounces; the renderer would refuse a job that sets one.
         let bounces = if tracer == Wanted::Beams { USUAL_BOUNCES } else { job.quality.rays.most_bounces };
@@ -186,7 +186,7 @@ fn rows(job: &Job, load: &Load) -> Result<Vec<Row>, Failure> {
             if plan.backend.is_beams() { format!(", unresolved {UNRESOLVED}") } else { String::new() };
         let by = plan.backend.description() + &unresolved;
         let (milliseconds, card) = timed_by(&plan.backend, load, picture)?;
-        Ok(Some(Row::new(plan.backend.name(), by, milliseconds, card)))
+        Ok(Some(BenchRow::new(plan.backend.name(), by, milliseconds, card)))
     };
     TRACERS.into_iter().filter_map(|tracer| row(tracer).transpose()).collect()
 }
@@ -203,7 +203,7 @@ fn quality(bounces: u32) -> Quality {
 }
 
 /// Times an ASET picture by every tracer.
-fn in_scope(specimen: &LoadedSpecimen, size: u32, bounces: u32) -> Result<Task, Failure> {
+fn in_scope(specimen: &LoadedSpecimen, size: u32, bounces: u32) -> Result<BenchTask, Failure> {
     let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
     let polytope = polytope(specimen)?;
     let film = Film::around(polytope, &View::default().basis(), size);
@@ -214,7 +214,7 @@ fn in_scope(specimen: &LoadedSpecimen, size: u32, bounces: u32) -> Result<Task, 
     let planes = polytope.facets().len();
     let what = format!("ASET, {planes} planes, {size} x {size}, {bounces} bounces at most");
     let load = Load::new(polytope, film, &[medium], bounces);
-    Ok(Task::new(what, load.plane_tests, rows(&job, &load)?))
+    Ok(BenchTask::new(what, load.plane_tests, rows(&job, &load)?))
 }
 
 fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
@@ -223,7 +223,7 @@ fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
 }
 
 /// Times a picture of a diamond under small lamps, in one sample pass of many wavelengths, by every tracer.
-fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failure> {
+fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<BenchTask, Failure> {
     let ([with_card, without], bounces, wavelengths) = LIT;
     let size = if has_card { with_card } else { without };
     let light = Light::lamps_on_dome();
@@ -248,11 +248,11 @@ fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failur
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",
         polytope.facets().len()
     );
-    Ok(Task::new(what, load.plane_tests, rows(&job, &load)?))
+    Ok(BenchTask::new(what, load.plane_tests, rows(&job, &load)?))
 }
 
 /// Times the figures of a stone in the ASET by beams, whose rest is estimated by rays.
-fn figures(specimen: &LoadedSpecimen, tilt_deg: f64) -> Result<Task, Failure> {
+fn figures(specimen: &LoadedSpecimen, tilt_deg: f64) -> Result<BenchTask, Failure> {
     let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
     let product = FiguresProduct { scope: Scope::aset(ASET_CONE, Backing::Black), medium };
     let (scene, product) = (Arc::new(Scene::alone(specimen)), Product::Figures(product));
@@ -265,7 +265,7 @@ fn figures(specimen: &LoadedSpecimen, tilt_deg: f64) -> Result<Task, Failure> {
     })?;
     let by = format!("exact beams and rays, standard error {STANDARD_ERROR}");
     let what = format!("figures, tilted {tilt_deg} degrees, {} planes", polytope(specimen)?.facets().len());
-    Ok(Task::new(what, 0.0, vec![Row::new("beam", by, milliseconds, None)]))
+    Ok(BenchTask::new(what, 0.0, vec![BenchRow::new("beam", by, milliseconds, None)]))
 }
 
 /// The work that a picture is for a tracer that tests all planes at each bounce.

@@ -1,19 +1,19 @@
-//! The parts of a [`Design`](super::Design) as serde writes and reads them: cuts of families by the keys of their numbers, tiers
-//! with their header apart, and meshes as their surfaces.
+//! The parts of a [`Design`](super::Design) as serde writes and reads them: cuts of families by the keys of their numbers, and
+//! meshes as their surfaces.
 
 use super::families::FAMILIES;
 use super::family_cut::FamilyCut;
 use super::mesh_shape::MeshShape;
 use super::shape::Cut;
-use super::tiers::{Tier, Tiers};
 use brillianteer_base::ByName;
 use brillianteer_math::{Surface, TriangleMesh, TriangleMeshError};
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 
 /// A cut of a family as plain data.
 #[derive(Serialize, Deserialize)]
-pub(super) struct FamilyNumbers {
+struct FamilyNumbers {
     /// The key of the family.
     family: String,
     /// The numbers that the cut gives, by their keys and in their units. Those that are missing are those of the family's first
@@ -23,11 +23,24 @@ pub(super) struct FamilyNumbers {
 
 /// The reason why numbers make no cut of a family.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum FamilyNumbersError {
+enum FamilyNumbersError {
     #[error("'{family}' is no family of cuts that is shaped by numbers alone")]
     Family { family: String },
     #[error("{family} has no number '{key}'")]
     Number { family: String, key: String },
+}
+
+// Written here and not derived there: the families themselves are cuts of families.
+impl Serialize for FamilyCut {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        FamilyNumbers::from(*self).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for FamilyCut {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        FamilyNumbers::deserialize(deserializer)?.try_into().map_err(D::Error::custom)
+    }
 }
 
 impl From<FamilyCut> for FamilyNumbers {
@@ -70,32 +83,6 @@ impl TryFrom<Surface> for MeshShape {
 
     fn try_from(surface: Surface) -> Result<Self, TriangleMeshError> {
         Ok(Self(Arc::new(TriangleMesh::new(surface)?)))
-    }
-}
-
-/// A cutter's design as cut files hold it: the header as `index`, and the tiers as `tier`.
-pub(super) mod whole_tiers {
-    use super::{Deserialize, Deserializer, Serialize, Serializer, Tier, Tiers};
-
-    #[derive(Serialize)]
-    struct Written<'a> {
-        index: &'a Tiers,
-        tier: &'a [Tier],
-    }
-
-    #[derive(Deserialize)]
-    struct Read {
-        index: Tiers,
-        tier: Vec<Tier>,
-    }
-
-    pub fn serialize<S: Serializer>(tiers: &Tiers, serializer: S) -> Result<S::Ok, S::Error> {
-        Written { index: tiers, tier: &tiers.tiers }.serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Tiers, D::Error> {
-        let Read { index, tier } = Read::deserialize(deserializer)?;
-        Ok(Tiers { tiers: tier, ..index })
     }
 }
 

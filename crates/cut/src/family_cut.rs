@@ -1,11 +1,9 @@
 //! A cut of a family whose facets a function makes out of the numbers of its table.
 
-use super::design_data::FamilyNumbers;
 use super::facet_net::{FacetNet, NoRoom};
 use super::family::{Family, Proportion};
 use super::shape::Cut;
 use brillianteer_math::Polytope;
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::Index;
 
@@ -24,8 +22,7 @@ pub type TotalDepth = fn(&FamilyCut) -> f64;
 
 /// A cut of a family, as the numbers of its table in their units. A number is accessed by its place among the rows of
 /// the table, for which the file of the family has constants.
-#[derive(Clone, Copy, Serialize, Deserialize)]
-#[serde(try_from = "FamilyNumbers", into = "FamilyNumbers")]
+#[derive(Clone, Copy)]
 pub struct FamilyCut {
     /// The family, which has a [`Family::net`].
     pub family: &'static Family,

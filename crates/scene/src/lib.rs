@@ -44,10 +44,12 @@ pub use dome_light::{DomeLight, NoDome};
 pub use film::Film;
 pub use instance::{Instance, MOST_STONES, Scene};
 pub use layout::{Layout, scattered};
-pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
+pub use light::{
+    Dome, HEADS_DEG, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward,
+};
 pub use lights::{LIGHTS, light};
 pub use look::{
-    BACKGROUND_DISTANCE, BOUNCES, EXPOSURE, GLOW, HEAD, HEADS_DEG, LIGHT_TURN, LOOK_NUMBERS, Look, STRENGTH,
+    BACKGROUND_DISTANCE, BOUNCES, EXPOSURE, GLOW, HEAD, LIGHT_TURN, LOOK_NUMBERS, Look, STRENGTH,
     USUAL_BOUNCES, USUAL_DISTANCE, USUAL_GLOW, USUAL_LIGHT, WAVELENGTHS,
 };
 pub use medium::Medium;

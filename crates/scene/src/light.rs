@@ -4,12 +4,14 @@
 //! the light's axis; 90 lies along the axis. Radiance 1 is that of a white sheet in full light. A part with a colour of its
 //! own sheds light in the smooth spectra of red, green and blue; one without sheds the light's spectrum.
 
-use super::look::HEADS_DEG;
 use super::worlds::World;
 use brillianteer_optics::Illuminant;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+
+/// The range of the half angle of an observer's head, degrees: a head of 90 would hide all light.
+pub const HEADS_DEG: [f64; 2] = [0.0, 89.0];
 
 /// Light from all around, as the sum of its parts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

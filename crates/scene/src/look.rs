@@ -5,6 +5,7 @@
 //! Its option is in `src/cli/picture_options.rs`, its row of the panel in `crates/editor/src/panels/light_rows.rs`.
 
 use super::background_ref::BackgroundRef;
+use super::light::HEADS_DEG;
 use super::smoothing::Smoothing;
 use super::tone::Tone;
 use brillianteer_base::{NumberRow, Unit};
@@ -22,9 +23,6 @@ pub const USUAL_BOUNCES: u32 = 64;
 
 /// The usual distance of a hanging background behind the middle, in girdle radii.
 pub const USUAL_DISTANCE: f64 = 3.0;
-
-/// The range of the half angle of an observer's head, degrees: a head of 90 would hide all light.
-pub const HEADS_DEG: [f64; 2] = [0.0, 89.0];
 
 /// What pictures under light are made with, beside the bodies and the view.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -11,24 +11,24 @@ pub struct BenchReport {
     pub threads: usize,
     /// The graphics card in words.
     pub card: String,
-    pub tasks: Vec<Task>,
+    pub tasks: Vec<BenchTask>,
 }
 
 /// A picture, and the time that each tracer took for it.
 #[derive(Serialize)]
-pub struct Task {
+pub struct BenchTask {
     /// The picture in words.
     #[serde(rename = "task")]
     pub what: String,
     /// The number of planes tested for the picture, if each ray tests all planes at each bounce.
     pub plane_tests: f64,
     #[serde(rename = "results")]
-    pub rows: Vec<Row>,
+    pub rows: Vec<BenchRow>,
 }
 
 /// The time that one tracer took for a task.
 #[derive(Serialize)]
-pub struct Row {
+pub struct BenchRow {
     /// The tracer's short name.
     pub tracer: &'static str,
     /// The tracer in words.
@@ -59,16 +59,16 @@ pub struct CardLine {
     pub parts: ByName<f64>,
 }
 
-impl Row {
-    /// Makes the row of a tracer, whose rate a [`Task`] adds.
+impl BenchRow {
+    /// Makes the row of a tracer, whose rate a [`BenchTask`] adds.
     pub fn new(tracer: &'static str, by: String, milliseconds: f64, card: Option<CardLine>) -> Self {
         Self { tracer, by, milliseconds, plane_tests_per_second: None, card }
     }
 }
 
-impl Task {
+impl BenchTask {
     /// Makes a task of the times that tracers took for it.
-    pub fn new(what: String, plane_tests: f64, mut rows: Vec<Row>) -> Self {
+    pub fn new(what: String, plane_tests: f64, mut rows: Vec<BenchRow>) -> Self {
         for row in rows.iter_mut().filter(|row| row.tracer != "beam") {
             row.plane_tests_per_second = Some(plane_tests / row.milliseconds * 1e3);
         }
@@ -103,8 +103,8 @@ mod tests {
             longest_dispatch_ms: 1.0,
             parts: [("a", 1.0)].into_iter().collect(),
         };
-        let row = |tracer, card| Row::new(tracer, "b".to_owned(), 2.0, card);
-        let task = Task::new("c".to_owned(), 4e8, vec![row("gpu", Some(card)), row("beam", None)]);
+        let row = |tracer, card| BenchRow::new(tracer, "b".to_owned(), 2.0, card);
+        let task = BenchTask::new("c".to_owned(), 4e8, vec![row("gpu", Some(card)), row("beam", None)]);
         assert_eq!(
             task.table(),
             "c\n         time  plane tests\n      2.00 ms    200.0 G/s  b\nof the peak\n      2.00 ms               b"

@@ -6,7 +6,7 @@
 //! city is gathered over the elevations from which the waves send it to the eye.
 
 use super::noise::{band, fractal, noise, ramp, random};
-use super::table::Table;
+use super::table::DirectionTable;
 use super::waves::{WaterPoint, Waves, swells};
 use glam::{DMat2, DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -359,10 +359,10 @@ fn shore(azimuth: f64, up: f64, footprint: f64) -> DVec3 {
 const TOP: f64 = 0.50;
 
 /// The city by azimuth and elevation up to [`TOP`], blurred upward over a hundredth of a radian, for reflections.
-static CITY: LazyLock<Table> = LazyLock::new(|| {
+static CITY: LazyLock<DirectionTable> = LazyLock::new(|| {
     let (across, down) = (2048, 96);
     let pixel = TOP / (down - 1) as f64;
-    Table::new([across, down], move |x, y| {
+    DirectionTable::new([across, down], move |x, y| {
         let azimuth = TAU * (x - (x + 0.5).floor());
         let mean = |k: usize| {
             let up = (y * TOP + pixel * ((k as f64 + 0.5) / 2.0 - 0.5)).max(1e-4);
@@ -376,10 +376,10 @@ static CITY: LazyLock<Table> = LazyLock::new(|| {
 });
 
 /// Coarser copies of [`CITY`] with wider and wider gathering upward: the spread grows by a factor of 2.3 to 3 from one to the next.
-static GATHERED: LazyLock<Vec<Table>> = LazyLock::new(|| {
+static GATHERED: LazyLock<Vec<DirectionTable>> = LazyLock::new(|| {
     let spreads = [0.004, 0.012, 0.030, 0.070];
     let gathered = |spread: f64| {
-        Table::new([2048, 96], move |x, y| {
+        DirectionTable::new([2048, 96], move |x, y| {
             let (mut sum, mut all) = (DVec3::ZERO, 0.0);
             for k in -5..=5 {
                 let off = f64::from(k) / 2.2;

@@ -6,7 +6,7 @@
 //! the footprint are drawn as shapes; the finer ones add to the spread of slopes.
 
 use super::noise::{curve, fractal, noise, ramp};
-use super::table::Table;
+use super::table::DirectionTable;
 use super::waves::{WaterPoint, Waves, swells};
 use glam::{DMat2, DVec2, DVec3};
 use std::sync::LazyLock;
@@ -68,8 +68,8 @@ pub(super) fn radiance(d: DVec3, footprint: f64) -> DVec3 {
 }
 
 /// The sky of reflections, by azimuth and the root of the sine of the elevation.
-static MIRRORED: LazyLock<Table> = LazyLock::new(|| {
-    Table::new([1024, 128], |x, y| {
+static MIRRORED: LazyLock<DirectionTable> = LazyLock::new(|| {
+    DirectionTable::new([1024, 128], |x, y| {
         let (sin, cos) = (std::f64::consts::TAU * x).sin_cos();
         let z = y * y;
         let flat = (1.0 - z * z).max(0.0).sqrt();
@@ -78,7 +78,7 @@ static MIRRORED: LazyLock<Table> = LazyLock::new(|| {
 });
 
 /// The tops of the ranges of hills by azimuth, as sines of their elevation: the farthest first.
-static RANGES: LazyLock<Table> = LazyLock::new(|| Table::new([8192, 1], |x, _| ranges(x)));
+static RANGES: LazyLock<DirectionTable> = LazyLock::new(|| DirectionTable::new([8192, 1], |x, _| ranges(x)));
 
 fn around(d: DVec3) -> f64 {
     d.y.atan2(d.x) / std::f64::consts::TAU

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// An entry is computed when it is first looked up. Threads that need the same entry at the same time all compute it
 /// and store the same bits, so no thread ever waits for another: worlds are looked up by tasks of the thread pool, where
 /// a thread that waits could be handed a task that needs what it is computing.
-pub(super) struct Table {
+pub(super) struct DirectionTable {
     across: usize,
     down: usize,
     /// Returns the value at a place from 0 to 1 each way.
@@ -21,7 +21,7 @@ pub(super) struct Table {
 /// The bits of a NaN, which no radiance is.
 const UNKNOWN: u64 = u64::MAX;
 
-impl Table {
+impl DirectionTable {
     /// Returns a table, at first without values, of `across` by `down` entries, whose value is `entry` of the entry's
     /// place from 0 to 1. Across, the table is a ring.
     pub(super) fn new(
@@ -82,7 +82,7 @@ mod tests {
     fn a_table_computes_only_what_is_looked_up_and_remembers_it() {
         let calls = Arc::new(AtomicUsize::new(0));
         let counted = Arc::clone(&calls);
-        let table = Table::new([8, 4], move |x, y| {
+        let table = DirectionTable::new([8, 4], move |x, y| {
             counted.fetch_add(1, Ordering::Relaxed);
             DVec3::new(x, y, 0.0)
         });
@@ -98,7 +98,7 @@ mod tests {
     fn tasks_of_a_pool_may_look_up_entries_whose_computation_waits_for_that_pool() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(16).build().unwrap();
         let entry = |x: f64, _| DVec3::splat((0..64).into_par_iter().map(|k| x + f64::from(k)).sum());
-        let tables: Vec<Table> = (0..20).map(|_| Table::new([64, 1], entry)).collect();
+        let tables: Vec<DirectionTable> = (0..20).map(|_| DirectionTable::new([64, 1], entry)).collect();
         let sum: f64 = pool.install(|| {
             let lookups = (0..tables.len() * 640).into_par_iter();
             lookups.map(|k| tables[k / 640].at((k % 640) as f64 / 640.0, 0.0).x).sum()
