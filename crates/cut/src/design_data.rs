@@ -1,7 +1,7 @@
 //! The parts of a [`Design`](super::Design) as serde writes and reads them: cuts of families by the keys of their numbers, and
 //! meshes as their surfaces.
 
-use super::families::FAMILIES;
+use super::family::Family;
 use super::family_cut::FamilyCut;
 use super::mesh_shape::MeshShape;
 use super::shape::Cut;
@@ -55,7 +55,7 @@ impl TryFrom<FamilyNumbers> for FamilyCut {
     type Error = FamilyNumbersError;
 
     fn try_from(FamilyNumbers { family: name, numbers }: FamilyNumbers) -> Result<Self, FamilyNumbersError> {
-        let found = FAMILIES.iter().copied().find(|family| family.key == name);
+        let found = Family::of_key(&name);
         let (Some(family), Some(mut cut)) = (found, found.map(|family| family.first.clone())) else {
             return Err(FamilyNumbersError::Family { family: name });
         };
@@ -90,8 +90,8 @@ impl TryFrom<Surface> for MeshShape {
 mod tests {
     use crate::round_brilliant::MODERN;
     use crate::{
-        Cut, Design, FAMILIES, Glass, Indexed, MaterialRef, Meet, MeetPoint, MeshShape, Plate, Sides, Tier,
-        Tiers,
+        Cut, Design, FAMILIES, Family, Glass, Indexed, MaterialRef, Meet, MeetPoint, MeshShape, Plate, Sides,
+        Tier, Tiers,
     };
     use brillianteer_math::{Plane, Surface};
     use glam::DVec3;
@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn unknown_families_and_numbers_are_named() {
-        let oval = FAMILIES.iter().copied().find(|family| family.key == "oval").unwrap();
+        let oval = Family::of_key("oval").unwrap();
         let text = serde_json::to_string(&design(oval.first.clone())).unwrap();
         for (from, to, said) in [
             ("\"oval\"", "\"ovum\"", "'ovum' is no family"),

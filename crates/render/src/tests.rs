@@ -1,6 +1,7 @@
 mod enlarged;
 mod frosted;
 mod metal;
+mod results;
 
 use super::*;
 use brillianteer_base::unwatched;
