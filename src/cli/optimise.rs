@@ -190,11 +190,9 @@ impl OptimiseArguments {
         // the file cannot be written.
         let kept = self.write(format, renamed(&outcome, search.objective().design()));
         let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
+        let result = || SearchSummary::of(&search, &outcome, &others);
         match self.json {
-            true => {
-                let result = SearchSummary::of(&search, &outcome, &others);
-                print_json(&OfFile { file: &path, result })?;
-            }
+            true => print_json(&OfFile { file: &path, result: result() })?,
             false => print(&text(&goal, &search, &outcome, &others))?,
         }
         kept?;
