@@ -1,7 +1,7 @@
 //! Options that several commands share: the viewpoint, and the settings by which light is traced.
 
 use super::choice::{TRACERS, one_of};
-use super::picture_options::within;
+use super::picture_options::allowed;
 use super::specimen::{LoadedSpecimen, note_colour};
 use brillianteer_base::{Failure, nearest};
 use brillianteer_files::scope_file;
@@ -10,7 +10,7 @@ use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};
 use brillianteer_paper::export::Viewing;
 use brillianteer_picture::{Picture, Scoped, named, names};
 use brillianteer_render::{Renderer, Unfit, Wanted};
-use brillianteer_scene::{Glare, HEADS_DEG, Lean, Medium, Projection, Side, Viewpoint};
+use brillianteer_scene::{Glare, HEAD, Lean, Medium, Projection, Side, Viewpoint};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
@@ -291,5 +291,5 @@ pub fn extrapolation(material: &Material, nm: f64) -> Option<String> {
 /// # Errors
 /// Fails where it is out of the range of heads.
 pub fn checked_head(degrees: f64) -> Result<f64, Failure> {
-    within("head", degrees, HEADS_DEG)
+    allowed("head", degrees, &HEAD)
 }

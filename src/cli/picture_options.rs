@@ -4,7 +4,7 @@
 use super::choice::{MOVEMENTS, TRACERS, one_of};
 use super::options::{OptionError, number};
 use super::specimen_options::SpecimenOptions;
-use brillianteer_base::Failure;
+use brillianteer_base::{Failure, NumberRow};
 use brillianteer_picture::Overlay;
 use brillianteer_render::Wanted;
 use brillianteer_scene::{
@@ -131,6 +131,14 @@ pub fn within(key: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, Fai
     Err(Failure::Usage(format!("--{key} {value}: give {least} to {most}")))
 }
 
+/// Returns the value of the option `--key` if the number of this row may have it, and a usage error otherwise.
+pub fn allowed<T>(key: &str, value: f64, row: &NumberRow<T>) -> Result<f64, Failure> {
+    if row.allows(value) {
+        return Ok(value);
+    }
+    Err(Failure::Usage(format!("--{key} {value}: give {}", row.hint())))
+}
+
 impl PictureOptions {
     /// Returns what a picture of a scene is made with: what these options say, and `own`, the scene's, for all else. The turn of
     /// the light and the exposure are added to the scene's. `unit_mm` is the scene's girdle radius.
@@ -150,7 +158,7 @@ impl PictureOptions {
             ("strength", &STRENGTH, finish.strength),
         ] {
             let Some(value) = value else { continue };
-            (row.set)(&mut look, within(key, value, row.range)?);
+            (row.set)(&mut look, allowed(key, value, row)?);
         }
         look.light_turn += own.light_turn;
         look.exposure += own.exposure;

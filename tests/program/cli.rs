@@ -477,7 +477,7 @@ fn a_stone_weighs_its_density_times_its_volume_and_a_scene_is_told_stone_by_ston
     let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");
     assert_eq!(keys(&info), "file name light unit_mm carats ring stones metals");
     assert_eq!(keys(&info["stones"][0]), "cut material diameter_mm carats at_mm");
-    assert!(info["carats"].is_null() && info["light"].is_null() && info["unit_mm"] == 2.0);
+    assert!(info["carats"].is_null() && info["light"] == "studio" && info["unit_mm"] == 2.0);
     near(at(&info, "stones/0/carats"), 3.52 * 64.0 / 200.0, 1e-12, "a cube of 4 mm");
     // The circles around the cubes, through their corners, have radii of 2 √2 and √2 mm.
     let apart = point(&info["stones"][1]["at_mm"]) - point(&info["stones"][0]["at_mm"]);

@@ -298,7 +298,7 @@ fn an_option_refuses_a_negative_value_by_its_own_name() {
         ("yield tolkowsky --rough -2x3x4", "--rough", "a side of -2 mm must be from 0.1"),
         ("yield tolkowsky --weight 1 --rough-weight -2", "--rough-weight", "more than 0"),
         ("info tolkowsky --material -1.5", "--material", "-1.5 must be from 1"),
-        ("gradient tolkowsky --head -5", "--head", "0 to 90 degrees"),
+        ("gradient tolkowsky --head -5", "--head", "0 to 89 degrees"),
         ("optimise tolkowsky --angle-step -1", "--angle-step", "0.001 to 10"),
         ("export tolkowsky --size -5", "--size", "-5 is not in 16"),
         ("spin tolkowsky --frames -5", "--frames", "-5 is not in 2"),

@@ -16,7 +16,7 @@ fn options(desk: &Desk, command: &str) -> Vec<String> {
 fn the_help_of_a_command_lists_what_it_takes_and_nothing_else() {
     let desk = Desk::new();
     let [map, render, spin] = ["refraction-map", "render", "spin"].map(|command| options(&desk, command));
-    for option in ["tracer", "bloom", "overlay", "strength", "no-jitter"] {
+    for option in ["tracer", "glow", "overlay", "strength", "no-jitter"] {
         let is_listed = |list: &[String]| list.iter().any(|listed| listed == option);
         assert!(is_listed(&render) && is_listed(&spin) && !is_listed(&map), "{option}: {map:?}");
         let stderr = desk.refused(&format!("refraction-map cube.toml --{option}"), 2);

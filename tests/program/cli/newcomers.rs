@@ -16,7 +16,8 @@ fn default_names_tell_apart_what_options_change() {
     let quick = "--size 16 --samples 1 --wavelengths 1";
     for (options, name) in [
         ("", "cube-render.png"),
-        ("--tone neutral", "cube-render.png"),
+        ("--smoothing none", "cube-render.png"),
+        ("--tone neutral", "cube-tone-neutral-render.png"),
         ("--material ruby", "cube-ruby-render.png"),
         ("--light ring", "cube-ring-render.png"),
         ("--light ./mine.toml --turn 30 --upright", "cube-mine-turn-30-upright-render.png"),

@@ -23,16 +23,16 @@ fn figure(printed: &str, name: &str) -> f64 {
 fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs() {
     let desk = desk();
     let line = "liquid-glass --background photo.png --size 64x48 --pane 40x30+8+6 --samples 2";
-    assert_eq!(desk.done(&format!("{line} --out alone")), "alone/liquid-glass-photo.png\n");
+    assert_eq!(desk.done(&format!("{line} --out alone")), "alone/liquid-glass-photo-pane-40x30+8+6.png\n");
     // A path that ends in .png is the picture itself.
     assert_eq!(desk.done(&format!("{line} --out alone/pane.png")), "alone/pane.png\n");
     assert_eq!(
         std::fs::read(desk.at("alone/pane.png")).unwrap(),
-        std::fs::read(desk.at("alone/liquid-glass-photo.png")).unwrap()
+        std::fs::read(desk.at("alone/liquid-glass-photo-pane-40x30+8+6.png")).unwrap()
     );
     let printed = desk.done(&format!("{line} --out all --compare --tint #3060ff40 --frost 50"));
     let names = ["", "-traced", "-both"]
-        .map(|name| format!("all/liquid-glass-photo-frost-50-tint-3060ff40{name}.png"));
+        .map(|name| format!("all/liquid-glass-photo-pane-40x30+8+6-frost-50-tint-3060ff40{name}.png"));
     assert_eq!(printed.lines().take(3).collect::<Vec<_>>(), names);
     assert_eq!(files(&desk.at("all")).len(), 3, "nothing else is left");
     // As drawn, at most (0.015 + 0.008 + 0.012 0.7 + ...) of 30 pixels.
@@ -93,7 +93,7 @@ fn a_pane_alone_has_alpha_and_its_times_are_told() {
     let line = "liquid-glass --background photo.png --size 64x48 --pane 40x30+8+6 --light 0";
     let printed = desk.done(&format!("{line} --alone --exr --timing"));
     let lines: Vec<&str> = printed.lines().collect();
-    let stem = "out/liquid-glass-photo-light-0";
+    let stem = "out/liquid-glass-photo-pane-40x30+8+6-light-0";
     assert_eq!(lines[..2], [format!("{stem}-alone.png"), format!("{stem}-alone.exr")]);
     for name in
         ["shape, once", "dispersion", "frost", "frame, background moves", "high from medium", "high from low"]

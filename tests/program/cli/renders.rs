@@ -185,7 +185,7 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
         if motion == "turn" {
             // The stones turn, and not only the light: the drawn facets of dark frames differ.
             desk.done("spin modern-ideal --frames 2 --size 32 --wavelengths 1 --samples 1 --exposure -40 --glow 0 --overlay facets --out dark");
-            let dark = files(&desk.at("dark/modern-ideal-exposure--40-bloom-0-overlay-facets-spin"));
+            let dark = files(&desk.at("dark/modern-ideal-exposure--40-glow-0-overlay-facets-spin"));
             assert!(dark["0001.png"] != dark["0002.png"]);
         }
         let (moving, animation) = frame(&desk.at(format!("{motion}/{name}.png")));

@@ -139,7 +139,7 @@ fn an_animation_at_fault_is_refused_and_says_why() {
         ("spin tolkowsky --scope asett", 2, "did you mean 'aset'"),
         ("spin tolkowsky --scope none.toml", 1, "none.toml"),
         ("spin tolkowsky --scope aset --light dome", 2, "cannot be used with"),
-        ("spin tolkowsky --scope aset --head=-5", 2, "--head: a half angle of -5 degrees"),
+        ("spin tolkowsky --scope aset --head=-5", 2, "--head -5: give 0 to 89 degrees"),
         ("spin tolkowsky --out a.apng", 2, ".apng is not written"),
         (
             "spin tolkowsky --motion rock --perspective 5 --of leakage --size 320",
