@@ -44,7 +44,6 @@ pub struct BenchRow {
 
 /// The parts of a graphics card's time.
 #[derive(Serialize)]
-#[cfg_attr(all(not(feature = "gpu"), not(test)), expect(dead_code, reason = "it is of cards alone"))]
 pub struct CardLine {
     /// The lines for the table.
     #[serde(skip)]
