@@ -28,6 +28,20 @@ pub struct NumberRow<T> {
 }
 
 impl<T> NumberRow<T> {
+    /// Makes a row whose slider runs over the whole range, by hundredths, or by ones where the number is a count.
+    pub const fn new(
+        key: &'static str,
+        name: &'static str,
+        unit: Unit,
+        range: [f64; 2],
+        meaning: &'static str,
+        get: fn(&T) -> Option<f64>,
+        set: fn(&mut T, f64),
+    ) -> Self {
+        let (step, decimals) = if matches!(unit, Unit::Count) { (1.0, 0) } else { (0.01, 2) };
+        Self { key, name, unit, range, span: range, step, decimals, meaning, get, set }
+    }
+
     /// Returns whether the number may have a value.
     pub fn allows(&self, value: f64) -> bool {
         let [least, most] = self.range;
@@ -82,18 +96,15 @@ impl fmt::Display for NumberError {
 mod tests {
     use super::*;
 
-    const ROW: NumberRow<f64> = NumberRow {
-        key: "height_mm",
-        name: "Height",
-        unit: Unit::Millimetres,
-        range: [0.0, 64.0],
-        span: [0.0, 10.0],
-        step: 1.0,
-        decimals: 1,
-        meaning: "The height.",
-        get: |height| Some(*height),
-        set: |height, value| *height = value,
-    };
+    const ROW: NumberRow<f64> = NumberRow::new(
+        "height_mm",
+        "Height",
+        Unit::Millimetres,
+        [0.0, 64.0],
+        "The height.",
+        |height| Some(*height),
+        |height, value| *height = value,
+    );
 
     #[test]
     fn values_beyond_the_range_are_refused_and_so_are_parts_of_a_count() {

@@ -51,7 +51,6 @@ mod size;
 mod tier_change;
 mod tiers;
 mod warning;
-mod whole_tiers;
 
 pub use audit::{
     Audit, AuditSubject, CountedAudit, Finding, FindingKind, FindingUnit, NEAR_MISS, SMALL_FACET,

@@ -17,7 +17,7 @@ pub enum Cut {
     /// A cut of another family, by the numbers of its table.
     Family(FamilyCut),
     /// Facets by angle, distance and index, as cutters write them.
-    Tiers(#[serde(with = "super::whole_tiers")] Tiers),
+    Tiers(#[serde(with = "super::tiers::whole")] Tiers),
     /// Planes with their names, as written: 1 to [`MAX_PLANES`](super::MAX_PLANES) planes, normals of any length but
     /// zero. Names may repeat.
     Planes(Vec<(String, Plane)>),

@@ -9,7 +9,7 @@ use super::light::HEADS_DEG;
 use super::smoothing::Smoothing;
 use super::tone::Tone;
 use brillianteer_base::{NumberRow, Unit};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// The light of pictures that name none.
@@ -37,7 +37,8 @@ pub struct Look {
     pub light_upright: bool,
     /// The half angle of the observer's head, which blocks light, in degrees; `None` for the light's own in pictures under
     /// light, and for none in scopes and figures.
-    #[serde(deserialize_with = "head")]
+    // Earlier versions of the editor kept 0 for none, as `head`.
+    #[serde(rename = "head_deg")]
     pub head: Option<f64>,
     /// The exposure, in stops.
     pub exposure: f64,
@@ -80,126 +81,121 @@ impl Default for Look {
     }
 }
 
-/// Reads the head of a record. Earlier versions of the editor wrote 0 where none was set.
-fn head<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-    Ok(Option::deserialize(deserializer)?.filter(|head| *head > 0.0))
-}
-
 /// The angle by which the light is turned.
 pub const LIGHT_TURN: NumberRow<Look> = NumberRow {
-    key: "light_turn",
-    name: "Light turn",
-    unit: Unit::Degrees,
-    range: [-1e6, 1e6],
     span: [-180.0, 180.0],
     step: 1.0,
     decimals: 1,
-    meaning: "The angle by which the light of renders is turned about its axis.",
-    get: |look| Some(look.light_turn),
-    set: |look, degrees| look.light_turn = degrees,
+    ..NumberRow::new(
+        "light_turn",
+        "Light turn",
+        Unit::Degrees,
+        [-1e6, 1e6],
+        "The angle by which the light of renders is turned about its axis.",
+        |look| Some(look.light_turn),
+        |look, degrees| look.light_turn = degrees,
+    )
 };
 
 /// The half angle of the observer's head.
 pub const HEAD: NumberRow<Look> = NumberRow {
-    key: "head",
-    name: "Head",
-    unit: Unit::Degrees,
-    range: HEADS_DEG,
     span: [0.0, 30.0],
     step: 0.1,
     decimals: 1,
-    meaning: "Half angle of the observer's head, which blocks light in the ASET, in figures and in renders. 0 is none, and in \
-              renders that of the light.",
-    get: |look| look.head,
-    set: |look, degrees| look.head = Some(degrees),
+    ..NumberRow::new(
+        "head",
+        "Head",
+        Unit::Degrees,
+        HEADS_DEG,
+        "Half angle of the observer's head, which blocks light in the ASET, in figures and in renders. At 0 the ASET has none, \
+              and renders have that of the light.",
+        |look| look.head,
+        |look, degrees| look.head = Some(degrees),
+    )
 };
 
 /// The exposure.
 pub const EXPOSURE: NumberRow<Look> = NumberRow {
-    key: "exposure",
-    name: "Exposure",
-    unit: Unit::Stops,
-    range: [-40.0, 40.0],
     span: [-4.0, 4.0],
     step: 0.1,
     decimals: 1,
-    meaning: "The brightness of renders, in stops. One stop more is twice the light.",
-    get: |look| Some(look.exposure),
-    set: |look, stops| look.exposure = stops,
+    ..NumberRow::new(
+        "exposure",
+        "Exposure",
+        Unit::Stops,
+        [-40.0, 40.0],
+        "The brightness of renders, in stops. One stop more is twice the light.",
+        |look| Some(look.exposure),
+        |look, stops| look.exposure = stops,
+    )
 };
 
 /// The number of bands of wavelengths.
-pub const WAVELENGTHS: NumberRow<Look> = NumberRow {
-    key: "wavelengths",
-    name: "Wavelengths",
-    unit: Unit::Count,
-    range: [1.0, 64.0],
-    span: [1.0, 64.0],
-    step: 1.0,
-    decimals: 0,
-    meaning: "The number of bands of wavelengths into which renders split light. With few, a rainbow breaks into steps of \
+pub const WAVELENGTHS: NumberRow<Look> = NumberRow::new(
+    "wavelengths",
+    "Wavelengths",
+    Unit::Count,
+    [1.0, 64.0],
+    "The number of bands of wavelengths into which renders split light. With few, a rainbow breaks into steps of \
               colour; hold Z to see three.",
-    get: |look| Some(f64::from(look.wavelengths)),
-    set: |look, count| look.wavelengths = count.round() as u32,
-};
+    |look| Some(f64::from(look.wavelengths)),
+    |look, count| look.wavelengths = count.round() as u32,
+);
 
 /// The strength of the glow.
-pub const GLOW: NumberRow<Look> = NumberRow {
-    key: "glow",
-    name: "Glow",
-    unit: Unit::Ratio,
-    range: [0.0, 1.0],
-    span: [0.0, 1.0],
-    step: 0.01,
-    decimals: 2,
-    meaning: "How much of the light of sparkles spreads around them in renders, as in an eye or a lens; 0 for none. A rough \
+pub const GLOW: NumberRow<Look> = NumberRow::new(
+    "glow",
+    "Glow",
+    Unit::Ratio,
+    [0.0, 1.0],
+    "How much of the light of sparkles spreads around them in renders, as in an eye or a lens; 0 for none. A rough \
               picture has none.",
-    get: |look| Some(look.glow),
-    set: |look, part| look.glow = part,
-};
+    |look| Some(look.glow),
+    |look, part| look.glow = part,
+);
 
 /// The greatest number of bounces.
-pub const BOUNCES: NumberRow<Look> = NumberRow {
-    key: "bounces",
-    name: "Most bounces",
-    unit: Unit::Count,
-    range: [1.0, USUAL_BOUNCES as f64],
-    span: [1.0, USUAL_BOUNCES as f64],
-    step: 1.0,
-    decimals: 0,
-    meaning: "The number of bounces inside the stone after which renders follow light no farther. Raise it from 1 to see \
+pub const BOUNCES: NumberRow<Look> = NumberRow::new(
+    "bounces",
+    "Most bounces",
+    Unit::Count,
+    [1.0, USUAL_BOUNCES as f64],
+    "The number of bounces inside the stone after which renders follow light no farther. Raise it from 1 to see \
               what each bounce adds; light that is left is dark.",
-    get: |look| Some(f64::from(look.bounces)),
-    set: |look, count| look.bounces = count.round() as u32,
-};
+    |look| Some(f64::from(look.bounces)),
+    |look, count| look.bounces = count.round() as u32,
+);
 
 /// The distance of the background.
 pub const BACKGROUND_DISTANCE: NumberRow<Look> = NumberRow {
-    key: "background_distance_mm",
-    name: "Distance",
-    unit: Unit::Millimetres,
-    range: [0.0, 10_000.0],
     span: [0.0, 100.0],
     step: 0.1,
     decimals: 1,
-    meaning: "Distance of the background behind the middle of the scene. It is never nearer than the stones reach.",
-    get: |look| look.background_mm,
-    set: |look, mm| look.background_mm = Some(mm),
+    ..NumberRow::new(
+        "background_distance_mm",
+        "Distance",
+        Unit::Millimetres,
+        [0.0, 10_000.0],
+        "Distance of the background behind the middle of the scene. It is never nearer than the stones reach.",
+        |look| look.background_mm,
+        |look, mm| look.background_mm = Some(mm),
+    )
 };
 
 /// The strength of refraction.
 pub const STRENGTH: NumberRow<Look> = NumberRow {
-    key: "strength",
-    name: "Strength",
-    unit: Unit::Ratio,
-    range: [0.0, 1.0],
-    span: [0.0, 1.0],
     step: 0.005,
     decimals: 3,
-    meaning: "The strength of refraction. 1 is physics. A smaller number mixes the refracted ray with the straight ray, which \
+    ..NumberRow::new(
+        "strength",
+        "Strength",
+        Unit::Ratio,
+        [0.0, 1.0],
+        "The strength of refraction. 1 is physics. A smaller number mixes the refracted ray with the straight ray, which \
               designers use for its looks.",
-    get: |look| Some(look.strength),
-    set: |look, part| look.strength = part,
+        |look| Some(look.strength),
+        |look, part| look.strength = part,
+    )
 };
 
 /// The numbers of a look, in the order in which scene files state them.
@@ -269,6 +265,8 @@ mod tests {
         assert_eq!(serde_json::from_str::<Look>(&text).unwrap(), look);
         assert_eq!(serde_json::from_str::<Look>("{}").unwrap(), Look::default());
         assert_eq!(serde_json::from_str::<Look>("{\"head\": 0.0}").unwrap(), Look::default());
+        let none = Look { head: Some(0.0), ..Look::default() };
+        assert_eq!(serde_json::from_str::<Look>(&serde_json::to_string(&none).unwrap()).unwrap(), none);
     }
 
     #[test]

@@ -81,16 +81,17 @@ impl Default for Liquid {
 macro_rules! number {
     ($key:literal, $name:literal, $unit:ident, $least:literal to $most:literal, $($field:ident).+, $meaning:literal) => {
         NumberRow {
-            key: $key,
-            name: $name,
-            unit: Unit::$unit,
-            range: [$least, $most],
-            span: [$least, $most],
             step: 1.0,
             decimals: 0,
-            meaning: $meaning,
-            get: |liquid| Some(liquid.$($field).+),
-            set: |liquid, value| liquid.$($field).+ = value,
+            ..NumberRow::new(
+                $key,
+                $name,
+                Unit::$unit,
+                [$least, $most],
+                $meaning,
+                |liquid| Some(liquid.$($field).+),
+                |liquid, value| liquid.$($field).+ = value,
+            )
         }
     };
 }

@@ -37,9 +37,11 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         Some(_) => behind_how(&mut look, first, model.document.specimen().unit_mm(), ui),
         None => {}
     }
-    // A head of 0 is none, so that the light's own stays.
     number(ui, &HEAD, &mut look, first);
-    look.head = look.head.filter(|head| *head > 0.0);
+    // Who sets 0 wants no head of his own. A scene that states 0 keeps it until then.
+    if look.head != before.head {
+        look.head = look.head.filter(|head| *head > 0.0);
+    }
     actions.push_changed(before, look, |look| Edit::Look(Box::new(look)));
     reset(before, first, actions, ui);
 }

@@ -355,3 +355,23 @@ fn a_scene_has_its_own_name_in_the_window_and_in_the_names_of_files() {
         );
     }
 }
+
+#[test]
+fn a_scene_without_a_head_is_not_changed_by_its_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bare.toml");
+    let text = "format = 1\nname = \"Bare\"\nlight = \"office\"\nhead = 0\nstone = [{ cut = \"cube\" }]";
+    std::fs::write(&path, text).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
+    bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
+    bench.harness.run_steps(4);
+    let head = |bench: &Bench| bench.editor().model.document.work.settings.look.head;
+    assert_eq!(
+        (head(&bench), bench.editor().model.document.first_settings().look.head),
+        (Some(0.0), Some(0.0))
+    );
+    bench.type_number("Head", "12");
+    assert_eq!(head(&bench), Some(12.0));
+    bench.type_number("Head", "0");
+    assert_eq!(head(&bench), None, "the light's own");
+}

@@ -1,15 +1,14 @@
 //! Numbers of a file that are read and written by their rows.
 
 use brillianteer_base::{NumberRow, Unit};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer, Error};
 
-/// The numbers that a table of a file states, by their keys.
-#[derive(Default, Serialize)]
-#[serde(transparent)]
-pub(super) struct StatedNumbers(BTreeMap<&'static str, StatedNumber>);
+/// The numbers that a table of a file states, with their keys, in the order of their rows.
+#[derive(Default)]
+pub(super) struct StatedNumbers(Vec<(&'static str, StatedNumber)>);
 
 /// A number as a file states it: whole where it is a count.
 #[derive(Serialize)]
@@ -17,6 +16,12 @@ pub(super) struct StatedNumbers(BTreeMap<&'static str, StatedNumber>);
 enum StatedNumber {
     Count(i64),
     Any(f64),
+}
+
+impl Serialize for StatedNumbers {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(key, number)| (key, number)))
+    }
 }
 
 impl StatedNumbers {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::library;
 use brillianteer_optics::line::SODIUM_D;
-use brillianteer_scene::POLISHED;
+use brillianteer_scene::{LOOK_NUMBERS, POLISHED};
 
 const TRILOGY: &str = "format = 1\nname = \"Three\"\nlight = \"studio\"\nlayout = \"row\"\ngap_mm = 0.6\n\
                        [[stone]]\ncut = \"modern-ideal\"\nmaterial = \"ruby\"\nsize = \"1ct\"\ncount = 2\n\
@@ -291,6 +291,11 @@ fn what_is_written_reads_back_as_the_same_scene() {
         let again = lineless(parse(&write(&scene), "again.toml", None).unwrap());
         assert_eq!(scene, again);
     }
+    // Numbers stand in the order of their rows, and not of their keys.
+    let text = write(&parse(&pattern, "x.toml", None).unwrap());
+    let places: Vec<usize> =
+        LOOK_NUMBERS.iter().filter_map(|row| text.find(&format!("\n{} = ", row.key))).collect();
+    assert!(places.len() > 6 && places.is_sorted(), "{text}");
 }
 
 #[test]

@@ -18,18 +18,15 @@ pub struct RingNumber {
 macro_rules! number {
     ($field:ident, $name:literal, $least:literal to $most:literal, $unit:ident, $matters:expr, $meaning:literal) => {
         RingNumber {
-            row: NumberRow {
-                key: stringify!($field),
-                name: $name,
-                unit: Unit::$unit,
-                range: [$least, $most],
-                span: [$least, $most],
-                step: 0.01,
-                decimals: 2,
-                meaning: $meaning,
-                get: |ring| Some(ring.$field),
-                set: |ring, value| ring.$field = value,
-            },
+            row: NumberRow::new(
+                stringify!($field),
+                $name,
+                Unit::$unit,
+                [$least, $most],
+                $meaning,
+                |ring| Some(ring.$field),
+                |ring, value| ring.$field = value,
+            ),
             matters: $matters,
         }
     };
