@@ -4,9 +4,13 @@ use super::{Arguments, parsed, spelt_out};
 use brillianteer_cut::{Cut, FAMILIES, Family};
 use brillianteer_files::library;
 use clap::{Command, CommandFactory};
+use shown_commands::{ShownCommand, commands, read};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::Path;
+
+#[path = "../../tests/common/shown_commands.rs"]
+mod shown_commands;
 
 /// The documents that show commands.
 const DOCUMENTS: [&str; 7] = [
@@ -35,53 +39,6 @@ const FOREIGN_OPTIONS: [&str; 12] = [
     "--nocapture",
 ];
 
-fn read(document: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
-    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
-
-/// A line of a document that shows the program, without what a shell would make of its end.
-struct ShownCommand {
-    at: String,
-    words: Vec<String>,
-}
-
-/// Returns the commands in the blocks of a document, each as its words.
-fn commands(document: &str) -> Vec<ShownCommand> {
-    let text = read(document).replace("\\\n", " ");
-    let mut commands = vec![];
-    let mut in_block = false;
-    for (number, line) in (1..).zip(text.lines()) {
-        in_block ^= line.starts_with("```");
-        let Some(rest) = line.trim_start().strip_prefix("brillianteer ").filter(|_| in_block) else {
-            continue;
-        };
-        commands.push(ShownCommand { at: format!("{document}, near line {number}"), words: words(rest) });
-    }
-    commands
-}
-
-/// Divides a command into words, up to a comment, a pipe or a redirection.
-fn words(command: &str) -> Vec<String> {
-    let mut words: Vec<String> = vec![];
-    let mut is_open = false;
-    for part in command.split('"') {
-        match is_open {
-            true => words.push(part.to_owned()),
-            false => {
-                for word in part.split_whitespace() {
-                    if ["#", "|", ">", "<"].contains(&word) {
-                        return words;
-                    }
-                    words.push(word.to_owned());
-                }
-            }
-        }
-        is_open = !is_open;
-    }
-    words
-}
-
 /// Returns whether a word is the name of something that comes with the program or of a file of the repository. Files that a
 /// reader has, such as design.asc or mine.toml, cannot be looked up.
 fn exists(option: Option<&str>, word: &str) -> bool {
@@ -106,7 +63,7 @@ fn exists(option: Option<&str>, word: &str) -> bool {
 fn commands_in_the_documents_are_understood_and_name_what_exists() {
     let mut count = 0;
     // The overview in the README has a test of its own.
-    for ShownCommand { at, words } in DOCUMENTS[1..].iter().flat_map(|document| commands(document)) {
+    for ShownCommand { at, words, .. } in DOCUMENTS[1..].iter().flat_map(|document| commands(document)) {
         let line = words.join(" ");
         let given = std::iter::once("brillianteer").chain(words.iter().map(String::as_str));
         let given: Vec<OsString> = spelt_out(given.map(OsString::from).collect());

@@ -1,8 +1,7 @@
 //! The list of a stone's class, estimated after what GIA publishes.
 
 use super::specimen::LoadedSpecimen;
-use brillianteer_base::Failure;
-use brillianteer_base::Unit;
+use brillianteer_base::{Failure, Unit};
 use brillianteer_cut::ClassEstimate;
 use brillianteer_measure::brilliant_proportions;
 use brillianteer_paper::table::{Column, Table, TableCell};

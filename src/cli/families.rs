@@ -5,6 +5,7 @@ use brillianteer_base::{Failure, Unit, nearest};
 use brillianteer_cut::{Bound, BoundAt, FAMILIES, Family, Proportion};
 use brillianteer_files::cut_file;
 use brillianteer_files::library::CUTS;
+use brillianteer_paper::table::{Column, Table};
 use clap::Args;
 use serde::Serialize;
 use std::fmt::Write;
@@ -39,16 +40,17 @@ impl Families {
                 |(family, cuts): (&Family, _)| FamilyCuts { key: family.key, name: family.name, cuts };
             return print_json(&rows.into_iter().map(entry).collect::<Vec<_>>());
         }
-        let line = |(family, cuts): (&Family, Vec<&str>)| {
-            format!("{:<18}{:<20}{}", family.key, family.name, cuts.join(", "))
-        };
-        print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
+        let mut table = Table::new([Column::left("", 18), Column::left("", 20), Column::text("")]);
+        for (family, cuts) in rows {
+            table.row([family.key.into(), family.name.into(), cuts.join(", ").into()]);
+        }
+        print(&table.to_string())
     }
 }
 
 fn unknown(key: &str) -> Failure {
     let known = FAMILIES.map(|family| family.key);
-    let meant = nearest(key, &known).map_or(String::new(), |name| format!("; did you mean '{name}'?"));
+    let meant = nearest(key, &known).map_or(";".to_owned(), |name| format!("; did you mean '{name}'?"));
     Failure::Usage(format!("no family '{key}'{meant} known: {}", known.join(", ")))
 }
 
@@ -116,8 +118,12 @@ struct FamilyNumber {
     /// The source of the usual range, where one is known.
     source: Option<&'static str>,
     least: Option<f64>,
+    /// False where the number must be greater than `least`.
+    least_inclusive: Option<bool>,
     least_reason: Option<&'static str>,
     most: Option<f64>,
+    /// False where the number must be less than `most`.
+    most_inclusive: Option<bool>,
     most_reason: Option<&'static str>,
     /// The value in the cut with which the family begins.
     first: f64,
@@ -137,8 +143,10 @@ impl FamilyNumbers {
             usual: row.usual,
             source: family.range_source(row),
             least: fixed(row.least),
+            least_inclusive: row.least.map(|bound| bound.inclusive),
             least_reason: row.least.map(|bound| bound.reason),
             most: fixed(row.most),
+            most_inclusive: row.most.map(|bound| bound.inclusive),
             most_reason: row.most.map(|bound| bound.reason),
             first: value(family, row),
             default: row.default,
@@ -158,7 +166,7 @@ fn fixed(bound: Option<Bound>) -> Option<f64> {
 
 /// Returns the value of the family's first cut. Derived numbers have more digits than a reader needs.
 fn value(family: &Family, row: &Proportion) -> f64 {
-    (1e4 * (row.get)(&family.first)).round() / 1e4
+    rounded((row.get)(&family.first))
 }
 
 fn unit(row: &Proportion) -> String {
@@ -175,12 +183,17 @@ fn possible(row: &Proportion) -> String {
     if ends.is_empty() { "as the other numbers allow".to_owned() } else { ends.join(", ") }
 }
 
+/// Returns a number with the digits that a reader needs.
+fn rounded(number: f64) -> f64 {
+    (1e4 * number).round() / 1e4
+}
+
 /// Returns a bound with the reason for it; `words` name one that is itself possible, and one that is not.
 fn end(words: [&str; 2], bound: Option<Bound>) -> Option<String> {
     let Bound { at, inclusive, reason } = bound?;
     let word = if inclusive { words[0] } else { words[1] };
     Some(match at {
-        BoundAt::Fixed(at) => format!("{word} {at} ({reason})"),
+        BoundAt::Fixed(at) => format!("{word} {} ({reason})", rounded(at)),
         BoundAt::Of(_) => format!("{word} a limit that depends on other keys ({reason})"),
     })
 }

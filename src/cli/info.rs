@@ -6,8 +6,7 @@ use super::console::{print, say};
 use super::meets::MeetList;
 use super::specimen::{LoadedSpecimen, weight};
 use super::specimen_options::SpecimenOptions;
-use brillianteer_base::Failure;
-use brillianteer_base::Unit;
+use brillianteer_base::{Failure, Unit};
 use brillianteer_cut::{
     AlongAxes, Audit, CountedAudit, Cut, MaterialRef, ProportionReport, Spread, TierReport,
 };

@@ -255,7 +255,7 @@ impl LightOptions {
         Ok(Medium { index, absorption: Medium::absorption_of(material, wavelength, radius_mm), spread: 0.0 })
     }
 
-    /// Returns the half angle of the observer's head, in degrees, if it is from 0 to below 90.
+    /// Returns the half angle of the observer's head, in degrees, if heads may have it.
     fn head(&self) -> Result<f64, Failure> {
         checked_head(self.head)
     }

@@ -61,8 +61,8 @@ pub struct PictureOptions {
     /// photograph's file; by default the scene's, or #33373d-#0e0f11
     #[arg(long, value_name = "WHAT")]
     pub background: Option<String>,
-    /// The distance of the world, pattern or photograph behind the stones, in girdle radii [default: the scene's, or
-    /// 3]
+    /// The distance of the world, pattern or photograph behind the stones, in girdle radii, up to 10 m [default: the
+    /// scene's, or 3]
     #[arg(long, value_name = "DISTANCE", value_parser = number)]
     pub photo_distance: Option<f64>,
     /// Show bodies SECONDS after they have begun to move, 0 to 100000: as in the editor, copies of one design tumble, and plates also
@@ -163,8 +163,14 @@ impl PictureOptions {
         look.light_turn += own.light_turn;
         look.exposure += own.exposure;
         if let Some(radii) = self.photo_distance {
-            let range = BACKGROUND_DISTANCE.range.map(|mm| (mm / unit_mm).floor());
-            look.background_mm = Some(within("photo-distance", radii, range)? * unit_mm);
+            let [_, most_mm] = BACKGROUND_DISTANCE.range;
+            let most = (most_mm / unit_mm).floor();
+            if !(0.0..=most).contains(&radii) {
+                let message =
+                    format!("--photo-distance {radii}: give 0 to {most} girdle radii, {most_mm} mm here");
+                return Err(Failure::Usage(message));
+            }
+            look.background_mm = Some(radii * unit_mm);
         }
         self.light.iter().for_each(|light| look.light.clone_from(light));
         look.light_upright |= self.upright;

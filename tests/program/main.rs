@@ -12,6 +12,9 @@ mod cli;
 #[path = "../common/maps.rs"]
 mod maps;
 mod refraction_page;
+#[cfg(feature = "cli")]
+#[path = "../common/shown_commands.rs"]
+mod shown_commands;
 mod watchdog;
 mod window;
 mod window_speed;

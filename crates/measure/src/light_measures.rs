@@ -35,7 +35,7 @@ pub const MEASURES_HEAD_DEG: f64 = 15.0;
 pub struct MeasureSettings {
     /// The domes whose light is weighed.
     pub domes: Vec<DomeLight>,
-    /// The half angle of the observer's head for obstruction, extinction and contrast, degrees, 0 to 90.
+    /// The half angle of the observer's head for obstruction, extinction and contrast, degrees, 0 to 89.
     pub head_deg: f64,
     /// The angle in degrees, above 0, over which colours must spread before an eye sees them apart.
     pub blur_deg: f64,

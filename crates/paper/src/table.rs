@@ -124,7 +124,8 @@ impl Table {
         Self::new([Column::left("", NAMES), Column::text("")]).indented(2)
     }
 
-    /// Puts so many spaces before each line, those that are there already included.
+    /// Puts so many spaces before each line that the table has and before each row that is added later; lines of text that are
+    /// added later stay as they are.
     pub fn indented(mut self, indent: usize) -> Self {
         self.indent = indent;
         self.lines.iter_mut().for_each(|line| line.insert_str(0, &" ".repeat(indent)));

@@ -4,7 +4,7 @@ use super::job::{Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Pr
 use super::surroundings::Surroundings;
 use brillianteer_optics::{DispersionError, INDICES, INDICES_IN_WORDS};
 use brillianteer_scene::{
-    Film, Medium, Panorama, PanoramaError, Pose, Projection, Scene, Scope, ScopeError, View,
+    Film, HEADS_DEG, Medium, Panorama, PanoramaError, Pose, Projection, Scene, Scope, ScopeError, View,
 };
 use brillianteer_trace::environment::LightingError;
 use glam::DQuat;
@@ -31,6 +31,15 @@ const RAYS: Counts = Counts { range: 1..=1024, text: "1 to 1024 rays along each 
 
 /// The numbers of rays along a side of a lattice for figures.
 pub(super) const LATTICES: Counts = Counts { range: 1..=16_384, text: "1 to 16,384" };
+
+/// The range of the half angle of an observer's head, in words.
+pub(super) const HEADS: &str = "0 to 89 degrees";
+
+/// Returns whether a head may have this half angle, degrees.
+pub(super) fn is_head(degrees: f64) -> bool {
+    let [least, most] = HEADS_DEG;
+    (least..=most).contains(&degrees)
+}
 
 /// The keys of a film, as errors name them.
 const FILM: FilmKeys = FilmKeys { size: "film.size", pixel: "film.pixel", centre: "film.centre" };
@@ -211,7 +220,7 @@ impl MeasuresProduct {
             demand(dome.is_valid(), "settings.domes.power", dome.power, range)?;
         }
         let head = settings.head_deg;
-        demand((0.0..=90.0).contains(&head), "settings.head_deg", head, "0 to 90 degrees")?;
+        demand(is_head(head), "settings.head_deg", head, HEADS)?;
         positive("settings.blur_deg", settings.blur_deg)?;
         for index in settings.indices {
             demand(INDICES.contains(&index), "settings.indices", index, INDICES_IN_WORDS)?;

@@ -1,7 +1,7 @@
 //! Measures a design: from the design to its figures in one call.
 
 use super::card::Card;
-use super::check::{LATTICES, OutOfRange, demand, demand_count, demand_error, positive};
+use super::check::{HEADS, LATTICES, OutOfRange, demand, demand_count, demand_error, is_head, positive};
 use super::job::{FiguresProduct, Job, Product, Quality};
 use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
@@ -106,7 +106,7 @@ impl MeasureOptions {
     fn check(&self) -> Result<(), MeasureError> {
         let (view, Bounds { standard_error, lattice, .. }) = (&self.viewpoint, self.bounds);
         let (head, nm) = (self.head_deg, self.wavelength_nm);
-        demand((0.0..90.0).contains(&head), "head_deg", head, "0 to below 90 degrees")?;
+        demand(is_head(head), "head_deg", head, HEADS)?;
         self.scope_with_head().validate()?;
         demand(nm > 0.0, "wavelength_nm", nm, "a wavelength above 0 nm")?;
         let is_tilt = (-90.0..=90.0).contains(&view.tilt_deg);

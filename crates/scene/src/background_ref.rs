@@ -39,7 +39,7 @@ impl fmt::Display for BackgroundRef {
 }
 
 impl From<&str> for BackgroundRef {
-    /// Takes a text that is no other name for the path of a photograph, whether there is such a file or not.
+    /// Reads a name as [`Self::read`] does. A text that names nothing else is the path of a photograph, which need not exist.
     fn from(text: &str) -> Self {
         Self::read(text, Path::new("")).unwrap_or_else(|_| Self::Photo(text.into()))
     }

@@ -19,7 +19,7 @@ pub struct BeforeAndAfter<T> {
 /// The result of a search.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SearchSummary {
-    /// The sum of the weighted measures.
+    /// The sum of the weighted measures, in parts of the light that the weights weigh.
     pub total: BeforeAndAfter<Interval>,
     /// The measures of the goal, in each material and view.
     pub measures: Vec<WeighedMeasure>,
@@ -62,7 +62,7 @@ pub struct WeighedMeasure {
     pub azimuth: f64,
     /// The share of the measure's weight; below 0 where less of the measure is wanted.
     pub weight: f64,
-    /// Its values.
+    /// The values of the measure in both designs.
     #[serde(flatten)]
     pub values: BeforeAndAfter<Interval>,
 }
@@ -72,7 +72,7 @@ pub struct WeighedMeasure {
 pub struct UnweighedMeasure {
     /// The measure.
     pub of: MeasureName,
-    /// Its values.
+    /// The values of the measure in both designs.
     #[serde(flatten)]
     pub values: BeforeAndAfter<Interval>,
 }
@@ -86,7 +86,7 @@ pub struct SearchedNumber {
     pub least: f64,
     /// The greatest value that was allowed.
     pub most: f64,
-    /// Its values.
+    /// The values of the number in both designs.
     #[serde(flatten)]
     pub values: BeforeAndAfter<f64>,
 }
@@ -96,7 +96,7 @@ pub struct SearchedNumber {
 pub struct LimitedFigure {
     /// The name of the figure, as in goals.
     pub name: String,
-    /// Its values.
+    /// The values of the figure in both designs.
     #[serde(flatten)]
     pub values: BeforeAndAfter<f64>,
 }

@@ -2,53 +2,9 @@
 //! short searches. `src/cli/documents.rs` checks that they name what exists.
 
 use super::desk::*;
+use crate::shown_commands::{ShownCommand, commands, shown};
 use std::path::Path;
 use std::process::Stdio;
-
-/// A command as a document shows it.
-struct Shown {
-    /// The words behind the program's name.
-    words: Vec<String>,
-    /// The file that standard output goes to.
-    to: Option<String>,
-    /// The file that standard input comes from.
-    from: Option<String>,
-}
-
-/// Returns the commands in the blocks of a document.
-fn commands(document: &str) -> Vec<Shown> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
-    let text = std::fs::read_to_string(path).unwrap().replace("\\\n", " ");
-    let mut found = vec![];
-    let mut in_block = false;
-    for line in text.lines() {
-        in_block ^= line.starts_with("```");
-        found.extend(line.strip_prefix("brillianteer ").filter(|_| in_block).map(shown));
-    }
-    found
-}
-
-/// Divides a line into words, up to a comment or a pipe. A pair of quotes makes one word.
-fn shown(line: &str) -> Shown {
-    let mut words = vec![];
-    for (k, part) in line.split('"').enumerate() {
-        match k % 2 {
-            0 => words.extend(part.split_whitespace().map(str::to_owned)),
-            _ => words.push(part.to_owned()),
-        }
-    }
-    let (mut kept, mut to, mut from) = (vec![], None, None);
-    let mut words = words.into_iter();
-    while let Some(word) = words.next() {
-        match word.as_str() {
-            "#" | "|" => break,
-            ">" => to = words.next(),
-            "<" => from = words.next(),
-            _ => kept.push(word),
-        }
-    }
-    Shown { words: kept, to, from }
-}
 
 /// Sets the value of an option, where the command gives it or else `is_added`.
 fn set(words: &mut Vec<String>, option: &str, is_added: bool, value: impl Fn(&str) -> String) {
@@ -125,7 +81,7 @@ fn run_all(document: &str) -> usize {
     let desk = stocked();
     let all = commands(document);
     let count = all.len();
-    for Shown { mut words, to, from } in all {
+    for ShownCommand { at, mut words, to, from } in all {
         shortened(&mut words);
         let line = words.join(" ");
         let mut command = desk.command("");
@@ -135,10 +91,10 @@ fn run_all(document: &str) -> usize {
         }
         let output = command.output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success(), "{document}: brillianteer {line}: {said}");
-        assert!(!said.contains("panicked"), "{document}: brillianteer {line}: {said}");
+        assert!(output.status.success(), "{at}: brillianteer {line}: {said}");
+        assert!(!said.contains("panicked"), "{at}: brillianteer {line}: {said}");
         let is_telling = !output.stdout.is_empty() || words.iter().any(|word| word == "--plot");
-        assert!(is_telling, "{document}: brillianteer {line} prints nothing");
+        assert!(is_telling, "{at}: brillianteer {line} prints nothing");
         // Files of the user's own folders stay on the desk.
         if let Some(name) = to.as_deref().and_then(|to| Path::new(to).file_name()) {
             std::fs::write(desk.at(name), output.stdout).unwrap();
@@ -165,7 +121,8 @@ fn every_command_of_the_other_documents_does_its_work() {
 
 #[test]
 fn the_reader_of_commands_keeps_quotes_redirections_and_comments_apart() {
-    let shown = shown("render a --material \"rainbow soap\" < in.toml > out.png   # then look");
+    let shown =
+        shown("render a --material \"rainbow soap\" < in.toml > out.png   # then look", String::new());
     assert_eq!(shown.words, ["render", "a", "--material", "rainbow soap"]);
     assert_eq!((shown.to.as_deref(), shown.from.as_deref()), (Some("out.png"), Some("in.toml")));
     let mut words = ["sweep", "--over", "tilt=-30:30:2", "--size", "800x450"].map(str::to_owned).to_vec();

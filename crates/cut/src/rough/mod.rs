@@ -152,9 +152,9 @@ pub struct YieldReport {
     pub finished: Finished,
     /// The weight of the stone, carats; `None` where the density is not known.
     pub carats: Option<f64>,
-    /// The volume of the stone in percent of that of the rough.
+    /// The volume of the stone in percent of that of the rough's box; `None` where its sides are not given.
     pub yield_of_box_percent: Option<f64>,
-    /// The weight of the stone in percent of that of the rough.
+    /// The weight of the stone in percent of that of the rough; `None` where either is not known.
     pub yield_of_weight_percent: Option<f64>,
 }
 

@@ -2,8 +2,7 @@
 
 use super::values::TomlTable;
 use crate::toml_text::meant;
-use brillianteer_base::Fault;
-use brillianteer_base::Unit;
+use brillianteer_base::{Fault, Unit};
 use brillianteer_cut::{Cut, FAMILIES, Family, Proportion, ProportionError};
 use serde::Deserialize;
 use std::collections::BTreeMap;

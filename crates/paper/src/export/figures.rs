@@ -88,16 +88,16 @@ pub struct EstimatedFigures {
     pub standard_error: EstimateErrors,
 }
 
-/// The standard errors of estimated figures.
+/// The standard errors of estimated figures, in parts of the silhouette's light or area.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EstimateErrors {
-    /// That of the light return.
+    /// The standard error of the light return; `None` where the scope has none.
     pub light_return: Option<f64>,
-    /// That of the light of each zone.
+    /// The standard error of the light of each zone.
     pub transmitted: ByName<f64>,
-    /// That of the area of each zone's strongest exits.
+    /// The standard error of the area of each zone's strongest exits.
     pub strongest_exit_area: ByName<f64>,
-    /// That of the light that is absorbed.
+    /// The standard error of the light that is absorbed.
     pub absorbed: f64,
 }
 

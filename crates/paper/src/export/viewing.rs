@@ -29,7 +29,7 @@ pub struct Viewing<'a> {
     pub medium: Medium,
     /// The wavelength in nm; `None` where the request gave the index instead.
     pub wavelength_nm: Option<f64>,
-    /// The half angle of the observer's head, in degrees, from 0 to below 90. Scopes with a hole for the eye have an angle
+    /// The half angle of the observer's head, in degrees, from 0 to 89. Scopes with a hole for the eye have an angle
     /// of their own.
     pub head_deg: f64,
     /// The part of the light that may stay unresolved, between 0 and 1; `None` for the usual bound.

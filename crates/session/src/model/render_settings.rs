@@ -10,13 +10,31 @@ pub const BANDS: [u32; 5] = [3, 8, 16, 32, 64];
 
 /// The settings that pictures of a document are made with.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(from = "StoredSettings")]
 pub struct RenderSettings {
     /// What renders are made with; its head is that of scopes and figures too.
     #[serde(flatten)]
     pub look: Look,
     /// The pane of liquid glass.
     pub liquid: Liquid,
+}
+
+/// The settings as they are kept between two starts.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct StoredSettings {
+    #[serde(flatten)]
+    look: Look,
+    liquid: Liquid,
+    /// The head that earlier versions kept, 0 for none.
+    head: f64,
+}
+
+impl From<StoredSettings> for RenderSettings {
+    fn from(StoredSettings { mut look, liquid, head }: StoredSettings) -> Self {
+        look.head = look.head.or(Some(head).filter(|head| *head > 0.0));
+        Self { look, liquid }
+    }
 }
 
 impl RenderSettings {
@@ -58,5 +76,7 @@ mod tests {
         let RenderSettings { look, .. } = serde_json::from_str(old).unwrap();
         assert_eq!((look.light.as_str(), look.exposure, look.head), ("dome", 1.0, None));
         assert_eq!(look.background, Some(BackgroundRef::Photo("/a/b.png".into())));
+        let set = serde_json::from_str::<RenderSettings>(r#"{"head": 12.0}"#).unwrap();
+        assert_eq!(set.look.head, Some(12.0));
     }
 }
