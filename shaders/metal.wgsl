@@ -2,7 +2,7 @@
 // crates/trace/src/ray/scene_tracer.rs, of crates/trace/src/ray/lobe_luck.rs, and of the sieve in
 // crates/trace/src/ray/roulette.rs.
 //
-// Imports: Body, random, microfacets, bvh, light.
+// Imports: Body, random, microfacets, basis, bvh, light.
 
 @group(0) @binding(13) var<uniform> metals: array<Body, MOST_METALS>;
 @group(0) @binding(14) var<uniform> roughnesses: array<vec4f, MOST_ROUGHNESS_ROWS>;
@@ -237,12 +237,9 @@ fn reflect_by_metal(next: Waiting, wavelength: u32) {
     let side = select(1.0, -1.0, dot(normals[0], out) < 0.0);
     let flat = normals[0] * side;
     let up = bent(normals[1] * side, flat, out);
-    // The basis is that of T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017, as in glam.
-    let sign = select(-1.0, 1.0, up.z >= 0.0);
-    let a = -1.0 / (sign + up.z);
-    let b = up.x * up.y * a;
-    let right = vec3f(1.0 + sign * up.x * up.x * a, sign * b, -sign * up.x);
-    let ahead = vec3f(b, sign + up.y * up.y * a, -up.y);
+    let across = orthonormal_pair(up);
+    let right = across[0];
+    let ahead = across[1];
     let seen = normalize(vec3f(dot(right, out), dot(ahead, out), max(dot(up, out), LEAST_SINE)));
     let place_of_finish = (frame.stone_count + mesh_range().finish) * frame.wavelength_count + wavelength;
     let finish = finish_of(media[place_of_finish]);

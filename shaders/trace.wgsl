@@ -3,7 +3,7 @@
 // describe the surface. Everything here is in the frame of the body, whose unit lengths and absorption have;
 // pose.wgsl converts to it and back.
 //
-// Imports: Frame, Body, Medium, optics.
+// Imports: Frame, Body, Medium, optics, basis.
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;
@@ -91,9 +91,8 @@ fn inbound_of(ray: Ray, met: Meeting, weight: f32, polarisation: Polarisation) -
         let light = times(polarisation.light, weight / weight_of(polarisation.light));
         return Inbound(met, ray, light, polarisation.s, 1.0, 0.0, 0u);
     }
-    let normal = facet_normal(met.facet, ray.origin + ray.direction * met.distance);
-    let s = s_axis(ray.direction, normal, frame.right);
-    return Inbound(met, ray, of_weight(weight), s, 1.0, 0.0, 0u);
+    // Light that is not polarised is the same along all axes perpendicular to its ray.
+    return Inbound(met, ray, of_weight(weight), orthonormal_pair(ray.direction)[1], 1.0, 0.0, 0u);
 }
 
 // Returns a vector, scaled down so that no component exceeds WIDEST_FAN.

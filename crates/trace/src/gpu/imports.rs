@@ -14,7 +14,8 @@ macro_rules! files {
 }
 
 /// The files, each by its name.
-const FILES: [(&str, &str); 23] = files![
+const FILES: [(&str, &str); 24] = files![
+    "basis",
     "branching",
     "bvh",
     "camera",

@@ -4,6 +4,7 @@
 mod glass;
 mod lamps;
 mod metal;
+mod polarised;
 mod rings;
 
 use super::Gpu;
