@@ -98,6 +98,17 @@ impl PathLight {
     }
 }
 
+#[cfg(test)]
+impl PathLight {
+    /// Returns the light with other fields, each given by its components along s and along s × the ray's direction.
+    pub fn of_other_fields(&self, other: impl Fn([[Complex64; 2]; 2]) -> [[Complex64; 2]; 2]) -> Self {
+        match self {
+            Self::Unpolarised(weight) => Self::Unpolarised(*weight),
+            Self::Fields(fields) => Self::Fields(ElectricFields { parts: other(fields.parts), ..*fields }),
+        }
+    }
+}
+
 impl ElectricFields {
     /// Returns the same fields with an axis s that is also perpendicular to a facet's normal.
     #[inline(always)]

@@ -2,7 +2,8 @@
 //! stone to stone.
 
 use super::card;
-use super::rings::{Shot, askew, assert_same, dark, differences};
+use super::rings::{Shot, askew, assert_same, dark, differences, gem};
+use crate::ray::ByRays;
 use brillianteer_math::{Plane, Polytope, Pose};
 use brillianteer_scene::{Instance, Light, Scene, View};
 use glam::{DQuat, DVec3};
@@ -61,10 +62,38 @@ fn crossed_plates() -> Shot {
 fn light_that_goes_from_stone_to_stone_keeps_its_polarisation_on_the_card() {
     let name = "light_that_goes_from_stone_to_stone_keeps_its_polarisation_on_the_card";
     let Some(gpu) = card(name) else { return };
-    let exact = crossed_plates().by_rays();
-    let found = differences(&exact, &crossed_plates().by_card(&gpu));
-    assert_same("crossed plates", &found);
-    let forgotten = Shot { is_polarised: false, ..crossed_plates() };
-    let found = differences(&exact, &forgotten.by_card(&gpu));
-    assert!(found.blocks > 0.05, "without polarisation: {found:?}");
+    let (shot, on_card) = (crossed_plates(), crossed_plates().by_card(&gpu));
+    assert_same("crossed plates", &differences(&shot.by_rays(), &on_card));
+    let (fault, carry) = ByRays::FAULTS[0];
+    let found = differences(&shot.by_rays_with(carry), &on_card);
+    assert!(found.blocks > 0.02, "{fault}: {found:?}");
+}
+
+/// Returns two stones, one behind the other, that reflect much light totally before it leaves them.
+fn two_gems() -> Shot {
+    let stone = |height: f64, turn: DQuat, scale: f64| Instance {
+        pose: Pose { at: DVec3::Z * height, turn: askew() * turn, scale },
+        ..Instance::new(gem(), dark(2.4, 0.001))
+    };
+    let instances = vec![
+        stone(1.0, DQuat::from_rotation_x(0.5) * DQuat::from_rotation_y(-0.3), 1.2),
+        stone(-1.6, DQuat::from_rotation_y(0.7) * DQuat::from_rotation_z(0.4), 2.4),
+    ];
+    let scene = Scene { instances, metals: vec![], unit_mm: 3.25 };
+    Shot { wavelengths: 1, light: Light { head: 0.0, ..Light::studio() }, ..Shot::of(scene) }
+}
+
+#[test]
+fn the_card_notices_every_fault_of_light_that_goes_from_stone_to_stone() {
+    let Some(gpu) = card("the_card_notices_every_fault_of_light_that_goes_from_stone_to_stone") else {
+        return;
+    };
+    let (shot, on_card) = (two_gems(), two_gems().by_card(&gpu));
+    let found = differences(&shot.by_rays(), &on_card);
+    assert_same("two gems", &found);
+    assert!(found.fine < 0.01, "two gems: {found:?}");
+    for (fault, carry) in ByRays::FAULTS {
+        let found = differences(&shot.by_rays_with(carry), &on_card);
+        assert!(found.fine > 0.08, "{fault}: {found:?}");
+    }
 }

@@ -5,8 +5,8 @@ use super::super::limits::{MOST_METALS, MOST_ROUGHNESSES};
 use super::super::{ByCard, Gpu, GpuEnvironment, GpuError};
 use super::card;
 use crate::environment::{Environment, EnvironmentMap};
-use crate::ray::{ByRays, RayOptions};
-use crate::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
+use crate::ray::{ByRays, PathLight, RayOptions};
+use crate::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass, Sampling};
 use crate::solids::heart;
 use crate::solids::torus;
 use brillianteer_base::{Stopped, unwatched};
@@ -63,15 +63,19 @@ impl Shot {
         work(&LitScene { scene: &self.scene, environment, view: &view, film, options })
     }
 
+    fn pass(&self, number: u32) -> SamplePass {
+        let strata = Strata::new(self.wavelengths, 1, &self.light.spectrum, true);
+        let sampling = Sampling { by_chance: self.by_chance, ..Sampling::of(self.passes) };
+        sampling.pass(&self.scene, &strata, number)
+    }
+
     /// Adds the passes to a picture and returns its pixels.
     fn taken<E>(&self, mut image: impl ProgressiveImage<E>) -> Vec<RadiancePixel>
     where
         E: From<Stopped> + std::fmt::Debug,
     {
-        let strata = Strata::new(self.wavelengths, 1, &self.light.spectrum, true);
-        let sampling = Sampling { by_chance: self.by_chance, ..Sampling::of(self.passes) };
         for number in 0..self.passes {
-            image.add_pass(&sampling.pass(&self.scene, &strata, number), &unwatched).unwrap();
+            image.add_pass(&self.pass(number), &unwatched).unwrap();
         }
         let mut pixels = vec![];
         image.each_pixel(&mut |pixel| pixels.push(*pixel)).unwrap();
@@ -80,6 +84,11 @@ impl Shot {
 
     pub fn by_rays(&self) -> Vec<RadiancePixel> {
         self.with(|lit_scene| self.taken::<Stopped>(ByRays::in_f64(*lit_scene, 0..SIZE)))
+    }
+
+    /// Returns the pixels of the first pass where `carry` makes other light of all light that goes to another body.
+    pub fn by_rays_with(&self, carry: fn(PathLight) -> Option<PathLight>) -> Vec<RadiancePixel> {
+        self.with(|lit_scene| ByRays::in_f64(*lit_scene, 0..SIZE).seen_with(&self.pass(0), carry))
     }
 
     pub fn by_card(&self, gpu: &Gpu) -> Vec<RadiancePixel> {
@@ -149,6 +158,8 @@ fn ring(body: impl Into<Body>, roughness: f64) -> Shot {
 pub(super) struct Differences {
     /// The share of pixels, of those that see anything, that differ by more than a hundredth of the brightest.
     pub pixels: f64,
+    /// The share of them that differ by more than 1e-4 of the brightest.
+    pub fine: f64,
     /// The largest difference of a block's mean, as a part of the brightest block.
     pub blocks: f64,
     /// The differences of the shares that were absorbed and not followed to their ends.
@@ -159,7 +170,12 @@ pub(super) fn differences(exact: &[RadiancePixel], card: &[RadiancePixel]) -> Di
     let scale = exact.iter().map(|p| p.colour.max_element()).fold(0.0, f64::max);
     let pairs = || exact.iter().zip(card).filter(|(a, b)| a.cover > 0.0 || b.cover > 0.0);
     let count = pairs().count() as f64;
-    let far = pairs().filter(|(a, b)| (a.colour - b.colour).abs().max_element() > 0.01 * scale);
+    let share_beyond = |part: f64| {
+        let far = |(a, b): &(&RadiancePixel, &RadiancePixel)| {
+            (a.colour - b.colour).abs().max_element() > part * scale
+        };
+        pairs().filter(far).count() as f64 / count
+    };
     let across = SIZE / BLOCK;
     let block = |pixels: &[RadiancePixel], k: u32| {
         let own = (0..SIZE * SIZE).filter(|at| at / SIZE / BLOCK * across + at % SIZE / BLOCK == k);
@@ -171,7 +187,8 @@ pub(super) fn differences(exact: &[RadiancePixel], card: &[RadiancePixel]) -> Di
     });
     let sum = |of: fn(&RadiancePixel) -> f64| pairs().map(|(a, b)| of(b) - of(a)).sum::<f64>() / count;
     Differences {
-        pixels: far.count() as f64 / count,
+        pixels: share_beyond(0.01),
+        fine: share_beyond(1e-4),
         blocks: off / most,
         rest: [sum(|p| p.absorbed), sum(|p| p.unresolved)],
     }

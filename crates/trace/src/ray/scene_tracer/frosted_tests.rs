@@ -14,7 +14,7 @@ use glam::DVec3;
 const SIZE: u32 = 24;
 
 /// Returns an octahedron with a table, whose planes are frosted as `of_plane` says; the table is plane 8.
-fn gem(of_plane: impl Fn(usize) -> f64) -> Polytope {
+pub(super) fn gem(of_plane: impl Fn(usize) -> f64) -> Polytope {
     let sides = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| DVec3::new(x, y, z))));
     let sides = sides.into_iter().flatten().flatten().map(|n| Plane::new(n / n.length(), 0.6));
     let planes: Vec<Plane> = sides.chain([Plane::new(DVec3::Z, 0.4)]).collect();

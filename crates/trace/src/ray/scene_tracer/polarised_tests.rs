@@ -1,5 +1,6 @@
 //! Light that goes from stone to stone keeps its polarisation.
 
+use super::frosted_tests::gem;
 use super::*;
 use crate::environment::{Environment, EnvironmentMap};
 use crate::ray::RayOptions;
@@ -9,6 +10,7 @@ use brillianteer_math::{Plane, Polytope, Pose};
 use brillianteer_optics::{Material, Strata, fresnel};
 use brillianteer_scene::{Film, Instance, Light, Scene, View};
 use glam::{DQuat, DVec3};
+use num_complex::Complex64;
 
 const INDEX: f64 = 1.5;
 
@@ -79,43 +81,140 @@ fn two_plates_pass_what_the_formula_says_of_each_polarisation() {
     assert!((kept - forgotten).abs() > 0.01);
 }
 
-/// Returns the light of each pixel of a picture of two plates, whose planes of incidence cross, by rays in f64 or by
-/// packets.
-fn seen(in_f64: bool, polarised: bool) -> Vec<DVec3> {
+/// Makes other light of the light that goes from a stone to another body.
+type Carry = fn(PathLight) -> Option<PathLight>;
+
+/// Returns both fields with other components.
+fn each(light: PathLight, other: fn([Complex64; 2]) -> [Complex64; 2]) -> Option<PathLight> {
+    Some(light.of_other_fields(|fields| fields.map(other)))
+}
+
+/// Returns light of the same powers along s and p whose fields along s and along p have nothing to do with each other.
+fn without_phases(light: PathLight) -> Option<PathLight> {
+    Some(light.of_other_fields(|[a, b]| {
+        let [s, p] = [0, 1].map(|k| (a[k].norm_sqr() + b[k].norm_sqr()).sqrt());
+        [[s.into(), Complex64::ZERO], [Complex64::ZERO, p.into()]]
+    }))
+}
+
+impl SceneTracer {
+    /// Follows a ray as `follow` does, where `carry` makes other light of all light that goes to another body.
+    fn follow_with(
+        &self,
+        start: &WaitingRay,
+        first: &First,
+        carry: Carry,
+        mut leave: impl FnMut(&WaitingRay),
+    ) {
+        let mut waiting = vec![];
+        let mut next = Some((*start, first.0));
+        while let Some((ray, first)) = next {
+            let known = waiting.len();
+            self.onward(&ray, first, &mut waiting, &mut leave);
+            waiting[known..].iter_mut().for_each(|(ray, _)| ray.light = ray.light.and_then(carry));
+            next = waiting.pop();
+        }
+    }
+}
+
+impl ByRays<'_> {
+    /// Faults in the way in which light goes from stone to stone.
+    pub(crate) const FAULTS: [(&'static str, Carry); 5] = [
+        ("no polarisation", |_| None),
+        ("no phases", without_phases),
+        ("the sign of both phases", |light| each(light, |[s, p]| [s, -p])),
+        ("the sign of the part across", |light| each(light, |parts| parts.map(|part| part.conj()))),
+        ("s and p exchanged", |light| each(light, |[s, p]| [p, -s])),
+    ];
+
+    /// Returns the pixels of one pass in f64, without what is absorbed or left, where `carry` makes other light of all
+    /// light that goes to another body.
+    pub(crate) fn seen_with(&self, pass: &SamplePass, carry: Carry) -> Vec<RadiancePixel> {
+        let RayTracer::Single(tracer) = &self.tracer else { panic!("these are rays in f64") };
+        let bands = tracer.made_of(pass);
+        let pixels = self.rows.clone().flat_map(|y| (0..self.lit_scene.film.size[0]).map(move |x| [x, y]));
+        let seen = |pixel: [u32; 2]| {
+            let straight = self.eye_ray(pass, pixel);
+            let start = WaitingRay::from_eye(straight);
+            let Some(first) = bands[0].first(&start) else { return self.see(&bands, pass, pixel) };
+            let mut lit = RadiancePixel { cover: 1.0, ..RadiancePixel::default() };
+            for (tracer, response) in bands.iter().zip(&pass.responses) {
+                let mut light = DVec4::ZERO;
+                let leave = |ray: &WaitingRay| light += self.arriving(ray, &straight, pass);
+                tracer.follow_with(&start, &first, carry, leave);
+                lit.colour += colour(response, light);
+            }
+            lit
+        };
+        pixels.map(seen).collect()
+    }
+}
+
+/// Returns two plates whose planes of incidence cross.
+fn crossed_plates() -> Scene {
     let lean = |height: f64, turn: DQuat| Pose { at: DVec3::Z * height, turn, scale: 1.0 };
     let instances = vec![
         plate(1.4, lean(0.8, DQuat::from_rotation_z(0.2) * DQuat::from_rotation_x(0.95))),
         plate(1.4, lean(-0.8, DQuat::from_rotation_z(0.9) * DQuat::from_rotation_y(0.95))),
     ];
-    let scene = Scene { instances, metals: vec![], unit_mm: 3.25 };
+    Scene { instances, metals: vec![], unit_mm: 3.25 }
+}
+
+/// Returns two stones, one behind the other, that reflect much light totally before it leaves them.
+fn two_gems() -> Scene {
+    let glass = Material::from_index("glass", 2.4).unwrap();
+    let stone = |height: f64, turn: DQuat, scale: f64| {
+        Instance::new(gem(|_| 0.0), glass.clone()).moved(&Pose { at: DVec3::Z * height, turn, scale })
+    };
+    let instances = vec![
+        stone(0.5, DQuat::from_rotation_x(0.5) * DQuat::from_rotation_y(-0.3), 0.6),
+        stone(-0.8, DQuat::from_rotation_y(0.7) * DQuat::from_rotation_z(0.4), 1.2),
+    ];
+    Scene { instances, metals: vec![], unit_mm: 3.25 }
+}
+
+/// Returns the results of `take` for a picture of a scene in studio light, and for one pass of it.
+fn pictured<T>(scene: &Scene, take: impl FnOnce(LitScene, &SamplePass) -> T) -> T {
     let light = Light { head: 0.0, ..Light::studio() };
     let (map, view) =
         (EnvironmentMap::new(&light, None), View { tilt: 0.1, azimuth: 0.3, ..View::default() });
     let (basis, eye) = (view.light_basis(), view.basis());
     let environment = Environment { map: &map, basis, eye, head: 0.0, backplate: None, backdrop: true };
-    let options = RayOptions { polarised, most_bounces: 32, least_weight: 1e-5 };
+    let options = RayOptions { polarised: true, most_bounces: 32, least_weight: 1e-5 };
     let film = Film::square(SIZE, 0.5);
-    let lit_scene = LitScene { scene: &scene, environment, view: &view, film, options };
     let strata = Strata::new(1, 1, &light.spectrum, true);
-    let mut image = if in_f64 { ByRays::in_f64(lit_scene, 0..SIZE) } else { ByRays::new(lit_scene, 0..SIZE) };
-    let pass = Sampling::of(1).pass(&scene, &strata, 0);
-    ProgressiveImage::<Stopped>::add_pass(&mut image, &pass, &unwatched).unwrap();
+    let pass = Sampling::of(1).pass(scene, &strata, 0);
+    take(LitScene { scene, environment, view: &view, film, options }, &pass)
+}
+
+fn pixels(mut image: ByRays, pass: &SamplePass) -> Vec<RadiancePixel> {
+    ProgressiveImage::<Stopped>::add_pass(&mut image, pass, &unwatched).unwrap();
     let mut pixels = vec![];
-    ProgressiveImage::<Stopped>::each_pixel(&image, &mut |pixel| pixels.push(pixel.colour)).unwrap();
+    ProgressiveImage::<Stopped>::each_pixel(&image, &mut |pixel| pixels.push(*pixel)).unwrap();
     pixels
 }
 
+/// Returns the share of pixels that differ by more than 1e-4 of the brightest.
+fn apart(a: &[RadiancePixel], b: &[RadiancePixel]) -> f64 {
+    let scale = a.iter().map(|pixel| pixel.colour.max_element()).fold(0.0, f64::max);
+    let far = a.iter().zip(b).filter(|(a, b)| (a.colour - b.colour).abs().max_element() > 1e-4 * scale);
+    far.count() as f64 / a.len() as f64
+}
+
 #[test]
-fn rays_and_packets_see_the_same_through_crossed_plates() {
-    let (rays, brightest) =
-        (seen(true, true), |all: &[DVec3]| all.iter().map(|c| c.max_element()).fold(0.0, f64::max));
-    let scale = brightest(&rays);
-    let apart = |other: &[DVec3]| {
-        let differences = rays.iter().zip(other).map(|(a, b)| (a - b).abs().max_element() / scale);
-        differences.filter(|&difference| difference > 1e-4).count()
-    };
-    // At the plates' edges rounding decides which way a ray takes.
-    let found = apart(&seen(false, true));
-    assert!(found * 50 < rays.len(), "{found} of {} pixels differ", rays.len());
-    assert!(apart(&seen(false, false)) * 2 > rays.len());
+fn rays_and_packets_see_the_same_from_stone_to_stone_and_notice_every_fault_between_them() {
+    for (scene, faults) in [(crossed_plates(), &ByRays::FAULTS[..1]), (two_gems(), &ByRays::FAULTS)] {
+        pictured(&scene, |lit_scene, pass| {
+            let rays = ByRays::in_f64(lit_scene, 0..SIZE);
+            let own = rays.seen_with(pass, Some);
+            assert_eq!(apart(&own, &pixels(ByRays::in_f64(lit_scene, 0..SIZE), pass)), 0.0);
+            // At edges rounding decides which way a ray takes.
+            let packets = pixels(ByRays::new(lit_scene, 0..SIZE), pass);
+            assert!(apart(&own, &packets) < 0.01, "{} of the pixels differ", apart(&own, &packets));
+            for (fault, carry) in faults {
+                let found = apart(&rays.seen_with(pass, *carry), &packets);
+                assert!(found > 0.08, "{fault}: {found} of the pixels differ");
+            }
+        });
+    }
 }
