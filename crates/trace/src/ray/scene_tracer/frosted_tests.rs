@@ -6,10 +6,10 @@ use crate::environment::{Environment, EnvironmentMap};
 use crate::ray::{RayOptions, StoneTracer};
 use crate::sampling::Sampling;
 use brillianteer_base::unwatched;
-use brillianteer_math::{Plane, Polytope};
+use brillianteer_math::{Plane, Polytope, Pose};
 use brillianteer_optics::{Absorption, Material, Strata, material};
 use brillianteer_scene::{Film, Instance, Light, Scene, View};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 const SIZE: u32 = 24;
 
@@ -22,7 +22,10 @@ pub(super) fn gem(of_plane: impl Fn(usize) -> f64) -> Polytope {
 }
 
 fn taken(gem: Polytope, material: &Material, light: &Light, passes: u32) -> Vec<RadiancePixel> {
-    let instances = vec![Instance::new(gem, material.clone())];
+    taken_of(vec![Instance::new(gem, material.clone())], light, passes)
+}
+
+fn taken_of(instances: Vec<Instance>, light: &Light, passes: u32) -> Vec<RadiancePixel> {
     let scene = Scene { instances, metals: vec![], unit_mm: 3.0 };
     let (map, view) = (EnvironmentMap::new(light, None), View { tilt: 0.4, azimuth: 0.3, ..View::default() });
     let (basis, eye) = (view.light_basis(), view.basis());
@@ -71,6 +74,25 @@ fn frosted_stones_account_for_all_light_of_a_white_world() {
             assert!(unresolved < 1e-3, "{number}: {unresolved}");
             assert_eq!(mean(&pixels, |pixel| pixel.absorbed) > 0.01, !std::ptr::eq(material, diamond));
         }
+    }
+}
+
+#[test]
+fn frosted_stones_beside_others_account_for_all_light_of_a_white_world() {
+    let (white, dark) = (Light::white(), dark());
+    let stone = |frosting: f64, height: f64, turn: f64| {
+        let pose = Pose { at: DVec3::Z * height, turn: DQuat::from_rotation_y(turn), scale: 0.8 };
+        Instance::new(gem(|plane| (plane % 3) as f64 * frosting), dark.clone()).moved(&pose)
+    };
+    for (number, frosting) in [[0.4, 0.4], [0.3, 0.0], [0.0, 0.5]].into_iter().enumerate() {
+        let pixels = taken_of(vec![stone(frosting[0], 0.7, 0.3), stone(frosting[1], -0.7, -0.5)], &white, 4);
+        for pixel in &pixels {
+            let all = pixel.colour.y + pixel.absorbed + pixel.unresolved;
+            assert!((all - pixel.cover).abs() < 2e-3, "{number}: {pixel:?}");
+        }
+        assert!(
+            mean(&pixels, |pixel| pixel.unresolved) < 2e-3 && mean(&pixels, |pixel| pixel.absorbed) > 0.02
+        );
     }
 }
 
