@@ -106,7 +106,8 @@ pub struct MeetingRay {
     pub weight: f64,
     /// The chance by which weak light goes on in a solid that is not convex; `None` where all light is followed.
     pub roulette: Option<Roulette>,
-    /// The polarisation of the light, at this weight; `None` where the light is not polarised.
+    /// The polarisation of the light, at any weight above 0; `None` where the light is not polarised. Where the ray
+    /// starts through the stone, the light is scaled to `weight`.
     light: Option<PathLight>,
     /// The random numbers by which frosted facets scatter the light; `None` where light that meets such a facet
     /// counts as unresolved.
@@ -247,8 +248,10 @@ impl StoneTracer {
     /// Returns the light of a ray that is about to enter.
     fn start(&self, meeting: &MeetingRay) -> Inbound {
         let &MeetingRay { met, ray, weight, light, luck, .. } = meeting;
-        let unpolarised = || PathLight::of_eye(ray.direction, weight, self.options.polarised);
-        let light = light.unwrap_or_else(unpolarised);
+        let light = match light {
+            Some(light) => light.scaled_to(weight),
+            None => PathLight::of_eye(ray.direction, weight, self.options.polarised),
+        };
         Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0, luck }
     }
 
@@ -373,13 +376,13 @@ impl StoneTracer {
         Loss { unresolved: remaining, ..rest }
     }
 
-    /// Returns the light of an exit at this event, with the exit's weight; `None` where the light has no polarisation
-    /// that matters: where polarisation is not followed, and beyond a frosted facet.
+    /// Returns the polarisation of the light of an exit at this event, at the weight without absorption and chance;
+    /// `None` where there is none that matters: where polarisation is not followed, and beyond a frosted facet.
     pub(super) fn leaving_light(&self, event: &SurfaceEvent, exit: &Exit) -> Option<PathLight> {
         if !self.options.polarised || exit.spread > 0.0 {
             return None;
         }
-        Some(event.onward_outside(self.medium.index)?.scaled_to(exit.weight))
+        event.onward_outside(self.medium.index)
     }
 
     /// Returns the facet and the distance at which a ray from outside enters; `None` where it misses.

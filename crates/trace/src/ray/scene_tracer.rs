@@ -41,8 +41,8 @@ pub struct WaitingRay {
     /// The side, in radians, of the square of directions that the ray represents, because all rough metal and all
     /// frosted facets on its way spread light; 0 for one direction.
     pub spread: f64,
-    /// The polarisation of light that has left a stone and meets another one, at this weight; `None` where the light is
-    /// not polarised. Metal is taken to leave light unpolarised.
+    /// The polarisation of light that has left a stone and meets another one, at any weight above 0; `None` where the
+    /// light is not polarised. Metal is taken to leave light unpolarised.
     light: Option<PathLight>,
     left: LeftBody,
     /// The number of bounces inside stones so far.
@@ -260,7 +260,7 @@ impl SceneTracer {
             return ray.weight;
         }
         if matches!(first, FirstBody::Stone(_)) {
-            ray.light = light().map(|light| light.scaled_to(ray.weight));
+            ray.light = light();
         }
         waiting.push((ray, first));
         0.0

@@ -3,7 +3,7 @@
 use super::frosted_tests::gem;
 use super::*;
 use crate::environment::{Environment, EnvironmentMap};
-use crate::ray::RayOptions;
+use crate::ray::{RayOptions, StoneTracer};
 use crate::sampling::Sampling;
 use brillianteer_base::unwatched;
 use brillianteer_math::{Plane, Polytope, Pose};
@@ -79,6 +79,23 @@ fn two_plates_pass_what_the_formula_says_of_each_polarisation() {
         assert!((below - expected).abs() < unresolved + 1e-9, "{below} passes, not {expected}");
     }
     assert!((kept - forgotten).abs() > 0.01);
+}
+
+#[test]
+fn light_enters_a_stone_at_the_weight_of_its_ray_whatever_weight_its_polarisation_is_given_at() {
+    let tracer = StoneTracer::new(&gem(|_| 0.0), Medium::clear(2.4), RayOptions::default());
+    let ray = DispersedRay::new(DVec3::new(0.05, 0.02, 5.0), DVec3::NEG_Z);
+    let met = tracer.meet(ray.origin, ray.direction).unwrap();
+    let exits = |light: Option<PathLight>| {
+        let meeting = MeetingRay { weight: 0.5, light, ..MeetingRay::from_eye(met, ray) };
+        let mut exits = vec![];
+        let rest = tracer.follow_from(&meeting, |_, _| false, |exit| exits.push(exit.weight)).unwrap();
+        exits.push(rest.unresolved);
+        exits
+    };
+    let (own, other) = (exits(None), exits(Some(PathLight::of_eye(ray.direction, 3.0, true))));
+    assert!(own.len() > 5 && (own.iter().sum::<f64>() - 0.5).abs() < 1e-12, "{own:?}");
+    assert!(own.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-15), "{other:?}");
 }
 
 /// Makes other light of the light that goes from a stone to another body.
