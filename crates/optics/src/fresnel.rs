@@ -8,7 +8,7 @@
 //!   point opposite ways.
 
 use super::real::{Real, Truth};
-use super::snell::{cos_t_squared, cos_transmitted};
+use super::snell::{cos_t_squared, cos_transmitted, is_refracted};
 use num_complex::Complex;
 
 /// The amplitude reflection coefficients of light that meets a surface.
@@ -19,10 +19,16 @@ pub struct Fresnel<N = f64> {
     /// The reflected over the incident amplitude, with the electric field in the plane of incidence.
     pub r_p: Complex<N>,
     /// The cosine of the angle of refraction; 0 where reflection is total.
-    pub cos_t: N,
+    cos_t: N,
 }
 
 impl<N: Real> Fresnel<N> {
+    /// Returns the cosine of the angle of refraction; 0 where reflection is total.
+    #[inline(always)]
+    pub fn cos_t_or_zero(&self) -> N {
+        self.cos_t
+    }
+
     /// Returns the share of s-polarised power that is reflected, 0..=1; the rest is transmitted.
     #[inline(always)]
     pub fn reflectance_s(&self) -> N {
@@ -87,7 +93,7 @@ pub fn fresnel<N: Real>(cos_i: N, eta: N) -> Fresnel<N> {
     let zero = cos_i.constant(0.0);
     let cos_i = cos_i.clamped();
     let squared = cos_t_squared(cos_i, eta);
-    let is_partial = zero.constant(N::LEAST_COS_T_SQUARED).less(squared);
+    let is_partial = is_refracted(squared);
     // In total reflection the root is the decay of the evanescent wave.
     let root = is_partial.select(squared, (-squared).max(zero)).sqrt();
     Fresnel {

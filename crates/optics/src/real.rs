@@ -17,10 +17,12 @@ pub trait Real:
     /// Reflection counts as total where cos² of the angle of refraction is at or below this.
     ///
     /// In f64 the value is below every cos² that two different indices can give (their rounding is 1e-16), and far
-    /// enough from 0 that dividing by it is safe.
+    /// enough from 0 that dividing by it is safe. In f32 it is 0, because changes are divided by
+    /// [`LEAST_COS`](Self::LEAST_COS) at least.
     const LEAST_COS_T_SQUARED: f64;
 
-    /// The least cosine by which a change of a ray is divided. Nearer to 0 the change has no digits left.
+    /// The least cosine by which a change of a ray is divided. In f32 the change has no digits left nearer to 0; in f64 the
+    /// value only prevents a division by 0.
     const LEAST_COS: f64;
 
     /// The sine of the angle between a ray and a facet's normal up to which the ray counts as perpendicular to the facet,
@@ -58,9 +60,9 @@ pub trait Real:
     #[must_use]
     fn exp(self) -> Self;
 
-    /// Returns the number, negated where `other` is negative.
+    /// Returns the number times the sign of `other`: negated where `other` is negative.
     #[must_use]
-    fn turned_as(self, other: Self) -> Self;
+    fn times_sign_of(self, other: Self) -> Self;
 
     /// Returns whether the number is less than another.
     fn less(self, other: Self) -> Self::Truth;
@@ -69,6 +71,9 @@ pub trait Real:
     /// all numbers that are divided by the same divisor.
     #[must_use]
     fn over(self, divisor: Self) -> Self;
+
+    /// Returns a single number; `None` for lanes, which may hold different numbers.
+    fn of_single(self) -> Option<f64>;
 }
 
 /// A truth value for each number.
@@ -105,12 +110,12 @@ pub trait Vector:
     /// Returns a nearly unit vector with the error of its length removed where the errors of a chain of bounces would
     /// add up, in single precision.
     #[must_use]
-    fn straightened(self) -> Self;
+    fn renormalised(self) -> Self;
 
     /// Returns a change of a ray, shortened where single precision would let it grow without bounds from bounce to
     /// bounce.
     #[must_use]
-    fn tamed(self) -> Self;
+    fn limited(self) -> Self;
 }
 
 impl<N> Truth<N> for bool {
@@ -172,7 +177,7 @@ macro_rules! single {
             }
 
             #[inline(always)]
-            fn turned_as(self, other: Self) -> Self {
+            fn times_sign_of(self, other: Self) -> Self {
                 if other.is_sign_negative() { -self } else { self }
             }
 
@@ -184,6 +189,11 @@ macro_rules! single {
             #[inline(always)]
             fn over(self, divisor: Self) -> Self {
                 self / divisor
+            }
+
+            #[inline(always)]
+            fn of_single(self) -> Option<f64> {
+                Some(self.into())
             }
         }
     };
@@ -217,12 +227,12 @@ impl Vector for DVec3 {
     }
 
     #[inline(always)]
-    fn straightened(self) -> Self {
+    fn renormalised(self) -> Self {
         self
     }
 
     #[inline(always)]
-    fn tamed(self) -> Self {
+    fn limited(self) -> Self {
         self
     }
 }

@@ -5,7 +5,7 @@
 //! §1.5.1, law of refraction eq. 8; as vectors in M. Pharr, W. Jakob and G. Humphreys, *Physically Based Rendering*, 4th ed.
 //! (2023), §9.3.
 
-use super::real::{Real, Truth, Vector};
+use super::real::{Real, Vector};
 
 /// The greatest distance of a unit vector's length from 1, or of a grazing n·d beyond 0, that counts as rounding.
 /// Anything greater counts as a caller's mistake.
@@ -30,7 +30,7 @@ pub struct Incidence<V: Vector> {
 #[inline(always)]
 pub fn reflect<V: Vector>(d: V, n: V, cos_i: V::Real) -> V {
     check(d, n, cos_i);
-    (d + n * (cos_i + cos_i)).straightened()
+    (d + n * (cos_i + cos_i)).renormalised()
 }
 
 /// Returns the direction of the refracted ray, eta d + (eta cos_i - cos_t) n, with `cos_t` from [`cos_transmitted`].
@@ -83,24 +83,36 @@ impl<V: Vector> Incidence<V> {
 /// Panics on a caller's mistake, in debug builds only. Lanes are not checked, because empty ones hold any numbers.
 #[inline(always)]
 fn check<V: Vector>(d: V, n: V, cos_i: V::Real) {
-    let one = cos_i.constant(1.0);
-    if cfg!(debug_assertions) && one.less(one).of_single().is_some() {
-        let is_near = |off: V::Real| off.abs().less(one.constant(ROUNDING)).of_single() != Some(false);
-        assert!(is_near(d.dot(d) - one) && is_near(n.dot(n) - one), "unit vectors are wanted");
-        assert!(is_near(cos_i + n.dot(d)), "cos_i is -n.d");
+    if !cfg!(debug_assertions) {
+        return;
     }
+    let squares = (d.dot(d).of_single(), n.dot(n).of_single());
+    let (Some(d), Some(n), Some(cos), Some(along)) =
+        (squares.0, squares.1, cos_i.of_single(), n.dot(d).of_single())
+    else {
+        return;
+    };
+    let is_near = |off: f64| off.abs() < ROUNDING;
+    assert!(is_near(d - 1.0) && is_near(n - 1.0), "unit vectors are wanted, not |d|² = {d} and |n|² = {n}");
+    assert!(is_near(cos + along), "cos_i is -n·d, which is {}, not {cos}", -along);
 }
 
 /// Returns the cosine of the angle of refraction; `None` where reflection is total.
 ///
 /// Reflection is total beyond the critical angle and exactly at it, where the refracted ray would run along the
-/// surface and carry no light through. Only this function decides between refraction and total reflection, so that
-/// the tracers, [`fresnel`](super::fresnel()) and [`reflectance`](super::reflectance) agree. A `cos_i` slightly
-/// outside 0..=1 is taken as rounding.
+/// surface and carry no light through. A `cos_i` slightly outside 0..=1 is taken as rounding.
 #[inline]
 pub fn cos_transmitted(cos_i: f64, eta: f64) -> Option<f64> {
     let squared = cos_t_squared(cos_i, eta);
-    (squared > f64::LEAST_COS_T_SQUARED).then(|| squared.sqrt())
+    is_refracted(squared).then(|| squared.sqrt())
+}
+
+/// Returns whether light is refracted at an angle whose cosine has this square; otherwise reflection is total. Only this
+/// function decides between the two, so that the tracers, [`fresnel`](super::fresnel()) and
+/// [`reflectance`](super::reflectance) agree.
+#[inline(always)]
+pub(super) fn is_refracted<N: Real>(cos_t_squared: N) -> N::Truth {
+    cos_t_squared.constant(N::LEAST_COS_T_SQUARED).less(cos_t_squared)
 }
 
 /// Returns 1 - eta² sin²(i), negative beyond the critical angle. The sum is written so that equal indices give

@@ -61,8 +61,8 @@ impl<V: Vector> DispersedRay<V> {
     pub(crate) fn along_surface(&self, distance: V::Real, normal: V) -> V {
         let by = self.shift + self.fan * distance;
         let speed = self.direction.dot(normal);
-        let divisor = speed.abs().max(speed.constant(V::Real::LEAST_COS)).turned_as(speed);
-        (by - self.direction * (normal.dot(by) / divisor)).tamed()
+        let divisor = speed.abs().max(speed.constant(V::Real::LEAST_COS)).times_sign_of(speed);
+        (by - self.direction * (normal.dot(by) / divisor)).limited()
     }
 
     /// Returns the ray that a surface reflects. The arrival's normal is on the ray's side, and `cos_i` is the cosine of

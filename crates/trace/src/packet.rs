@@ -1,9 +1,10 @@
 //! Packets of rays, one ray in each lane of the processor's registers, in single precision. They serve for pictures
 //! under light.
 //!
-//! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, by the same formulae,
-//! through bodies of planes and glass shapes; light may enter a plate with waves again. Each ray has its own medium, so that the
-//! wavelengths of one pixel share a packet. When a ray ends, the next ray takes its lane. `shaders/trace.wgsl` does the
+//! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, by the same formulae for
+//! all but polarisation, which is a coherency matrix here and two fields there. It runs through bodies of planes and
+//! glass shapes; light may enter a plate with waves again. Each ray has its own medium, so that the wavelengths of one
+//! pixel share a packet. When a ray ends, the next ray takes its lane. `shaders/trace.wgsl` does the
 //! same on a graphics card.
 
 mod backplate;
@@ -34,9 +35,6 @@ struct PacketHit<S: Simd> {
 ///
 /// The result in each lane depends only on the ray of that lane. A ray with NaN misses.
 trait PacketSurface: Sync {
-    /// True where the normals change along the surface.
-    const IS_CURVED: bool;
-
     /// Returns the places where rays from outside enter. A ray that runs from the surface outward does not meet its
     /// own start.
     fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S>;
@@ -44,6 +42,7 @@ trait PacketSurface: Sync {
     /// Returns the places where rays from inside or from the surface leave.
     fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S>;
 
-    /// Returns the change of the unit normals at points of the surface that move along it by `by`.
-    fn turned<S: Simd>(&self, simd: S, point: Vectors<S>, by: Vectors<S>) -> Vectors<S>;
+    /// Returns the change of the unit normals at points of the surface that move along it by `by`; `None` where the
+    /// surface is flat.
+    fn turned<S: Simd>(&self, simd: S, point: Vectors<S>, by: Vectors<S>) -> Option<Vectors<S>>;
 }

@@ -297,7 +297,7 @@ impl<'a> Tracer<'a> {
         let surface = fresnel(cos_i, eta);
         let (light, glare) = Coherency::entered(&surface);
         let light = if self.beams.polarised { light } else { light.unpolarised() };
-        let cosines = (cos_i, surface.cos_t);
+        let cosines = (cos_i, surface.cos_t_or_zero());
         let direction = refract(-view.toward, plane.normal, eta, cosines);
         let TreeSize { nodes: id, corners, exits: exit } = self.beams.size();
         let node = BeamNode {

@@ -140,7 +140,7 @@ fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 9] {
     let f = fresnel(cos_i, eta);
     let sin_i = (1.0 - cos_i * cos_i).max(0.0).sqrt();
     let (d, n) = (DVec3::new(sin_i, 0.0, -cos_i), DVec3::Z);
-    let cos_t = f.cos_t;
+    let cos_t = f.cos_t_or_zero();
     let (back, onward) = (reflect(d, n, cos_i), refract(d, n, eta, (cos_i, cos_t)));
     let (of_d, of_n) = (DVec3::new(0.03, -0.01, 0.02), DVec3::new(0.02, 0.04, 0.0));
     let incidence = Incidence { direction: d, normal: n, cos_i, of_direction: of_d, of_normal: Some(of_n) };

@@ -161,7 +161,7 @@ impl<'a> PacketBackplate<'a> {
         for axis in 0..2 {
             let size = self.size[axis];
             let way = end[axis] - start[axis];
-            let way = way.abs().max(way.all(LEAST_STRETCH)).turned_as(way);
+            let way = way.abs().max(way.all(LEAST_STRETCH)).times_sign_of(way);
             let (a, b) = ((-start[axis] - 0.5) / way, (-start[axis] + (size - 0.5)) / way);
             parts = [parts[0].max(a.min(b)), parts[1].min(a.max(b))];
         }

@@ -102,7 +102,8 @@ impl<P: PacketSurface> Passage<'_, P> {
         rays.path = rays.path + distance;
         let cos_i = rays.ray.direction.dot(normal);
         let shift = rays.ray.along_surface(distance, normal);
-        let of_normal = P::IS_CURVED.then(|| self.surface.turned(simd, point, shift));
+        let of_normal = self.surface.turned(simd, point, shift);
+        let is_curved = of_normal.is_some();
         let within = Arrival { point, normal, shift, of_normal }.turned_over();
         if absorbs {
             absorb(rays, factor);
@@ -115,8 +116,8 @@ impl<P: PacketSurface> Passage<'_, P> {
         }
         let passed = rays.light.transmitted(&surface);
         let weight = passed.weight() * rays.left;
-        let out = Refraction { eta: [rays.index, rays.spread], cosines: (cos_i, surface.cos_t) };
-        let outward = tamed::<S, P>(rays.ray.refracted(&within, &out, true));
+        let out = Refraction { eta: [rays.index, rays.spread], cosines: (cos_i, surface.cos_t_or_zero()) };
+        let outward = tamed(rays.ray.refracted(&within, &out, true), is_curved);
         for (lane, occupant) in occupants[..S::F32_LANES].iter().enumerate() {
             if let Some((tag, bounces)) = *occupant
                 && weight.lane(lane) > 0.0
@@ -140,7 +141,7 @@ impl<P: PacketSurface> Passage<'_, P> {
         if !self.options.polarised {
             rays.light = rays.light.unpolarised();
         }
-        rays.ray = tamed::<S, P>(rays.ray.reflected(&within, cos_i, true));
+        rays.ray = tamed(rays.ray.reflected(&within, cos_i, true), is_curved);
     }
 
     /// Counts the bounce, and empties the lanes of rays that end. `before` is the weighted light before the bounce,
@@ -177,8 +178,8 @@ impl<P: PacketSurface> Passage<'_, P> {
 
 /// Limits the fans of rays where the surface is curved: only such a surface widens them without bounds.
 #[inline(always)]
-fn tamed<S: Simd, P: PacketSurface>(ray: DispersedRay<Vectors<S>>) -> DispersedRay<Vectors<S>> {
-    if P::IS_CURVED { DispersedRay { fan: ray.fan.tamed(), ..ray } } else { ray }
+fn tamed<S: Simd>(ray: DispersedRay<Vectors<S>>, is_curved: bool) -> DispersedRay<Vectors<S>> {
+    if is_curved { DispersedRay { fan: ray.fan.limited(), ..ray } } else { ray }
 }
 
 /// Removes the light that is absorbed on the way to the facet, and counts it times this factor.
@@ -201,8 +202,6 @@ mod tests {
     struct OpenSlab;
 
     impl PacketSurface for OpenSlab {
-        const IS_CURVED: bool = false;
-
         fn entry<S: Simd>(&self, simd: S, _: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
             PacketHit { distance: direction[0].all(1.0), normal: Vectors::splat(simd, Vec3::Z) }
         }
@@ -213,8 +212,8 @@ mod tests {
             PacketHit { distance, normal: Vectors::splat(simd, Vec3::NEG_Z) }
         }
 
-        fn turned<S: Simd>(&self, _: S, _: Vectors<S>, by: Vectors<S>) -> Vectors<S> {
-            by
+        fn turned<S: Simd>(&self, _: S, _: Vectors<S>, _: Vectors<S>) -> Option<Vectors<S>> {
+            None
         }
     }
 

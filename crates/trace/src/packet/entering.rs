@@ -90,7 +90,7 @@ impl<S: Simd> Arrivals<S> {
         let point = ray.origin + ray.direction * self.distance;
         let cos_i = -ray.direction.dot(normal);
         let shift = ray.along_surface(self.distance, normal);
-        let of_normal = P::IS_CURVED.then(|| surface.turned(simd, point, shift));
+        let of_normal = surface.turned(simd, point, shift);
         let arrival = Arrival { point, normal, shift, of_normal };
         let eta = Lanes::splat(simd, 1.0) / self.index;
         let reflection = fresnel(cos_i, eta);
@@ -103,7 +103,10 @@ impl<S: Simd> Arrivals<S> {
         if !is_polarised {
             (glare, inside) = (glare.unpolarised(), inside.unpolarised());
         }
-        let into = Refraction { eta: [eta, -(self.spread * eta * eta)], cosines: (cos_i, reflection.cos_t) };
+        let into = Refraction {
+            eta: [eta, -(self.spread * eta * eta)],
+            cosines: (cos_i, reflection.cos_t_or_zero()),
+        };
         let back = ray.reflected(&arrival, cos_i, true);
         Split { s, back, glare, inward: ray.refracted(&arrival, &into, true), inside }
     }

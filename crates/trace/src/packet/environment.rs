@@ -5,6 +5,7 @@ use super::backplate::{PacketBackplate, by_channel};
 use super::lanes::{Lanes, Vectors};
 use super::rays::SingleRay;
 use crate::environment::{Environment, EnvironmentMap, HEAD_EDGE, STILL, TEXEL_ANGLE, wrapped};
+use brillianteer_optics::Vector;
 use glam::{DVec4, IVec2, Vec2, Vec3, Vec4};
 use pulp::{Simd, WithSimd};
 
@@ -186,10 +187,10 @@ impl LookUp<'_> {
         let per = strength.all(1.0) / between.length_squared().sqrt();
         let goes_on = own.direction.dot(straight).is_positive();
         LookUpLanes {
-            origin: goes_on.select_vectors(beside + (own.origin - beside) * strength, own.origin),
-            direction: goes_on.select_vectors(between * per, own.direction),
-            fan: goes_on.select_vectors((fan + (own.fan - fan) * strength) * per, own.fan),
-            shift: goes_on.select_vectors(moved + (own.shift - moved) * strength, own.shift),
+            origin: Vectors::select(goes_on, beside + (own.origin - beside) * strength, own.origin),
+            direction: Vectors::select(goes_on, between * per, own.direction),
+            fan: Vectors::select(goes_on, (fan + (own.fan - fan) * strength) * per, own.fan),
+            shift: Vectors::select(goes_on, moved + (own.shift - moved) * strength, own.shift),
         }
     }
 

@@ -245,8 +245,6 @@ fn far_root<S: Simd>(value: Lanes<S>, slope: Lanes<S>, bend: Lanes<S>) -> Lanes<
 }
 
 impl PacketSurface for PacketShape {
-    const IS_CURVED: bool = true;
-
     #[inline(always)]
     fn entry<S: Simd>(&self, _simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
         let line = self.line(origin, direction);
@@ -278,13 +276,13 @@ impl PacketSurface for PacketShape {
     }
 
     #[inline(always)]
-    fn turned<S: Simd>(&self, _simd: S, point: Vectors<S>, by: Vectors<S>) -> Vectors<S> {
+    fn turned<S: Simd>(&self, _simd: S, point: Vectors<S>, by: Vectors<S>) -> Option<Vectors<S>> {
         let p = self.body.own_axes(point);
         let by = self.body.own_axes(by);
         let normal = self.normal(p);
         let by = by + normal * -normal.dot(by);
         let Some(wave) = &self.wave else {
-            return self.body.shape_axes(self.body.jet(p, by).change);
+            return Some(self.body.shape_axes(self.body.jet(p, by).change));
         };
         let wave = wave.at(p);
         let [x, y] = wave.rise;
@@ -299,6 +297,6 @@ impl PacketSurface for PacketShape {
         ]);
         let sheared = Vectors([gradient[0] - x * fall, gradient[1] - y * fall, fall]);
         let within = bent + normal * -normal.dot(bent);
-        within * (x.all(1.0) / sheared.length_squared().sqrt())
+        Some(within * (x.all(1.0) / sheared.length_squared().sqrt()))
     }
 }

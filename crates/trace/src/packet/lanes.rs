@@ -39,7 +39,7 @@ impl<S: Simd> Lanes<S> {
         Self { simd, values: simd.splat_f32s(value) }
     }
 
-    /// Returns the same number in every lane.
+    /// Returns the same number in every lane; [`Real::constant`] does so for formulae that any number type shares.
     #[inline(always)]
     pub fn all(self, value: f32) -> Self {
         Self::splat(self.simd, value)
@@ -66,9 +66,9 @@ impl<S: Simd> Lanes<S> {
         Self { values: self.simd.sqrt_f32s(self.values), ..self }
     }
 
-    /// Returns the numbers, negated in the lanes where `other` is negative.
+    /// Returns the numbers times the sign of `other`: negated in the lanes where `other` is negative.
     #[inline(always)]
-    pub fn turned_as(self, other: Self) -> Self {
+    pub fn times_sign_of(self, other: Self) -> Self {
         let sign = self.simd.and_f32s(other.values, self.simd.splat_f32s(-0.0));
         Self { values: self.simd.xor_f32s(self.values, sign), ..self }
     }
@@ -126,12 +126,6 @@ impl<S: Simd> Mask<S> {
     #[inline(always)]
     pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
         Lanes { values: self.simd.select_f32s(self.mask, yes.values, no.values), ..yes }
-    }
-
-    /// Returns `yes` in the lanes where the mask is true, and `no` in the others.
-    #[inline(always)]
-    pub fn select_vectors(self, yes: Vectors<S>, no: Vectors<S>) -> Vectors<S> {
-        Vectors([self.select(yes[0], no[0]), self.select(yes[1], no[1]), self.select(yes[2], no[2])])
     }
 }
 
@@ -285,8 +279,8 @@ impl<S: Simd> Real for Lanes<S> {
     }
 
     #[inline(always)]
-    fn turned_as(self, other: Self) -> Self {
-        Self::turned_as(self, other)
+    fn times_sign_of(self, other: Self) -> Self {
+        Self::times_sign_of(self, other)
     }
 
     #[inline(always)]
@@ -297,6 +291,11 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn over(self, divisor: Self) -> Self {
         self * (self.all(1.0) / divisor)
+    }
+
+    #[inline(always)]
+    fn of_single(self) -> Option<f64> {
+        None
     }
 }
 
@@ -332,18 +331,18 @@ impl<S: Simd> Vector for Vectors<S> {
 
     #[inline(always)]
     fn select(truth: Mask<S>, yes: Self, no: Self) -> Self {
-        truth.select_vectors(yes, no)
+        Self([truth.select(yes[0], no[0]), truth.select(yes[1], no[1]), truth.select(yes[2], no[2])])
     }
 
     #[inline(always)]
-    fn straightened(self) -> Self {
+    fn renormalised(self) -> Self {
         // This is one Newton step toward unit length.
         let square = self.dot(self);
         self * (square.all(1.5) - square.all(0.5) * square)
     }
 
     #[inline(always)]
-    fn tamed(self) -> Self {
+    fn limited(self) -> Self {
         let most = self[0].abs().max(self[1].abs()).max(self[2].abs()).max(self[0].all(1e-30));
         self * (most.all(WIDEST_FAN) / most).min(most.all(1.0))
     }

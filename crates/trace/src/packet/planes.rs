@@ -125,8 +125,6 @@ impl<S: Simd> Nearest<S> {
 }
 
 impl PacketSurface for PacketPlanes {
-    const IS_CURVED: bool = false;
-
     #[inline(always)]
     fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
         let (zero, none) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, f32::INFINITY));
@@ -182,7 +180,7 @@ impl PacketSurface for PacketPlanes {
     }
 
     #[inline(always)]
-    fn turned<S: Simd>(&self, simd: S, _point: Vectors<S>, _by: Vectors<S>) -> Vectors<S> {
-        Vectors::splat(simd, Vec3::ZERO)
+    fn turned<S: Simd>(&self, _simd: S, _point: Vectors<S>, _by: Vectors<S>) -> Option<Vectors<S>> {
+        None
     }
 }

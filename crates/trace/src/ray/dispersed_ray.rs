@@ -15,7 +15,7 @@ impl DispersedRay {
             return Arrival { point, normal, shift: DVec3::ZERO, of_normal: None };
         }
         let shift = self.along_surface(distance, normal);
-        let of_normal = F::IS_CURVED.then(|| facets.turned(point, shift));
+        let of_normal = facets.turned(point, shift);
         Arrival { point, normal, shift, of_normal }
     }
 }

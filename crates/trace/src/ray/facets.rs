@@ -14,16 +14,14 @@ use std::sync::Arc;
 
 /// A search for the facets of a solid that rays meet.
 pub(super) trait FacetSearch {
-    /// True where the normals change along the surface.
-    const IS_CURVED: bool = false;
-
     /// Returns the unit outward normal at a point of a facet.
     fn normal(&self, facet: usize, point: DVec3) -> DVec3;
 
-    /// Returns the change of that normal when the point moves along the surface by `by`.
+    /// Returns the change of that normal when the point moves along the surface by `by`; `None` where the surface is
+    /// flat.
     #[inline]
-    fn turned(&self, _point: DVec3, _by: DVec3) -> DVec3 {
-        DVec3::ZERO
+    fn turned(&self, _point: DVec3, _by: DVec3) -> Option<DVec3> {
+        None
     }
 
     /// Returns the facet and the distance, not below 0, at which a ray from a point outside or on the surface enters; `None`
@@ -233,15 +231,13 @@ impl FacetSearch for TriangleFacets {
 macro_rules! smooth {
     ($kind:ident) => {
         impl FacetSearch for $kind {
-            const IS_CURVED: bool = true;
-
             #[inline]
             fn normal(&self, _: usize, point: DVec3) -> DVec3 {
                 self.0.normal(point)
             }
 
-            fn turned(&self, point: DVec3, by: DVec3) -> DVec3 {
-                self.0.bend(point) * by
+            fn turned(&self, point: DVec3, by: DVec3) -> Option<DVec3> {
+                Some(self.0.bend(point) * by)
             }
 
             fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {

@@ -119,15 +119,15 @@ impl InstanceTracer {
     /// Carries a ray into the frame of the body.
     fn arriving(&self, (origin, direction): (DVec3, DVec3)) -> (DVec3, DVec3) {
         let Some(pose) = &self.pose else { return (origin, direction) };
-        (pose.unplace(origin), pose.turn.inverse() * direction)
+        (pose.unplace(origin), self.own_vector(direction))
     }
 
     /// Carries a ray, with its fan and its shift, into the frame of the body.
     fn own(&self, ray: &DispersedRay) -> DispersedRay {
         let Some(pose) = &self.pose else { return *ray };
         let (origin, direction) = self.arriving((ray.origin, ray.direction));
-        let back = pose.turn.inverse();
-        DispersedRay { origin, direction, fan: back * ray.fan, shift: back * ray.shift / pose.scale }
+        let (fan, shift) = (self.own_vector(ray.fan), self.own_vector(ray.shift) / pose.scale);
+        DispersedRay { origin, direction, fan, shift }
     }
 
     /// Carries light that leaves the body into the world.
@@ -137,9 +137,9 @@ impl InstanceTracer {
         Exit {
             point: pose.place(exit.point),
             path: exit.path * pose.scale,
-            direction: pose.turn * exit.direction,
-            fan: pose.turn * exit.fan,
-            shift: pose.turn * exit.shift * pose.scale,
+            direction: self.world_vector(exit.direction),
+            fan: self.world_vector(exit.fan),
+            shift: self.world_vector(exit.shift) * pose.scale,
             ..exit
         }
     }

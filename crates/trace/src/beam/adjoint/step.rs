@@ -140,7 +140,7 @@ impl BeamState {
         let surface = fresnel(cos_i, eta);
         let (light, _) = Coherency::entered(&surface);
         let light = if beams.polarised { light } else { light.unpolarised() };
-        let direction = refract(-view.toward, plane.normal, eta, (cos_i, surface.cos_t));
+        let direction = refract(-view.toward, plane.normal, eta, (cos_i, surface.cos_t_or_zero()));
         let s = s_axis(direction, plane.normal, view.right);
         Self { origin: entry_points(view, plane), direction, light, s }
     }
@@ -159,7 +159,7 @@ impl BeamState {
         let cos_i = n.dot(toward);
         let eta = 1.0 / beams.medium.index;
         let change = FresnelChange::new(cos_i, eta);
-        let cos_t = change.surface.cos_t;
+        let cos_t = change.surface.cos_t_or_zero();
         let (mut per_n, mut per_cos, mut per_eta) = (DVec3::ZERO, 0.0, 0.0);
         let per_o = toward.dot(after.origin[0]);
         let per_offset = per_o / cos_i;

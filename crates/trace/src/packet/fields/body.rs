@@ -94,8 +94,8 @@ impl PacketBody {
     /// Returns a vector, mirrored as its point is when that is folded; a second call undoes it.
     #[inline(always)]
     fn folded<S: Simd>(&self, v: Vectors<S>, point: Vectors<S>) -> Vectors<S> {
-        let second = if self.is_triangular() { v[1] } else { v[1].turned_as(point[1]) };
-        Vectors([v[0].turned_as(point[0]), second, v[2].turned_as(point[2])])
+        let second = if self.is_triangular() { v[1] } else { v[1].times_sign_of(point[1]) };
+        Vectors([v[0].times_sign_of(point[0]), second, v[2].times_sign_of(point[2])])
     }
 
     /// Returns the distances at which a line enters and leaves the solid between the planes of the flat faces.
@@ -234,7 +234,7 @@ fn radial<S: Simd>(away: [Lanes<S>; 2], by: [Lanes<S>; 2]) -> FlatJet<S> {
 /// Returns the stretch of a line where one coordinate is within ±`half`.
 #[inline(always)]
 fn slab<S: Simd>(o: Lanes<S>, v: Lanes<S>, half: f32) -> [Lanes<S>; 2] {
-    let per = o.all(1.0) / v.abs().max(o.all(LEAST)).turned_as(v);
+    let per = o.all(1.0) / v.abs().max(o.all(LEAST)).times_sign_of(v);
     let (middle, room) = (-o * per, per.abs() * half);
     [middle - room, middle + room]
 }
@@ -243,7 +243,7 @@ fn slab<S: Simd>(o: Lanes<S>, v: Lanes<S>, half: f32) -> [Lanes<S>; 2] {
 /// coordinates along the normal.
 #[inline(always)]
 fn half_space<S: Simd>(o: Lanes<S>, v: Lanes<S>, offset: f32) -> [Lanes<S>; 2] {
-    let at = (o.all(offset) - o) / v.abs().max(o.all(LEAST)).turned_as(v);
+    let at = (o.all(offset) - o) / v.abs().max(o.all(LEAST)).times_sign_of(v);
     let goes_in = v.is_negative();
     [goes_in.select(at, o.all(f32::NEG_INFINITY)), goes_in.select(o.all(f32::INFINITY), at)]
 }

@@ -125,7 +125,7 @@ impl WithSimd for Packets<'_> {
                     let met = self.shape.exit(simd, o, d);
                     (met.distance, met.normal)
                 }
-                Question::Turned => (o[0], self.shape.turned(simd, o, d)),
+                Question::Turned => (o[0], self.shape.turned(simd, o, d).unwrap()),
             };
             found[0][i..to].copy_from_slice(distance.as_slice());
             found[1][i..to].copy_from_slice(normal[0].as_slice());

@@ -65,7 +65,7 @@ pub(super) fn sin_cos<S: Simd>(turns: Lanes<S>) -> [Lanes<S>; 2] {
     let part = turns - ((turns + WHOLE) - WHOLE);
     let far = part.abs();
     let near = far.min(far.all(0.5) - far);
-    [quarter_sine(near).turned_as(part), quarter_sine(far.all(0.25) - far)]
+    [quarter_sine(near).times_sign_of(part), quarter_sine(far.all(0.25) - far)]
 }
 
 /// Returns the sine of an angle in turns, from minus a quarter turn to a quarter turn.
