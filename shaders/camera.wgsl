@@ -1,6 +1,6 @@
 // The rays of a picture from the eye: the twin of crates/trace/src/ray/camera.rs.
 //
-// Imports: Frame, trace.
+// Imports: ray, trace.
 
 // Returns the ray through the point `p` of the image plane, from a point outside all stones, with its change when `p`
 // moves by `by`.

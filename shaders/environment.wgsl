@@ -1,14 +1,13 @@
 // The environment around the stones, the twin of crates/trace/src/environment.rs. Light is radiance in four
 // channels: of the key illuminant's spectrum, and of red, green and blue.
 //
-// Imports: Environment, Lamp.
+// Imports: Environment, Lamp, ray, angles.
 
 @group(0) @binding(6) var<uniform> environment: Environment;
 @group(0) @binding(7) var<uniform> lamps: array<Lamp, MOST_LAMPS>;
 @group(0) @binding(8) var sky: texture_2d<f32>;
 @group(0) @binding(9) var photo: texture_2d<f32>;
 
-const FRAC_1_PI: f32 = 0.31830988;
 const STILL: f32 = 1e-14;
 const ALONG: f32 = 1e-6;
 // The least height above the backplate, which prevents divisions by 0.

@@ -1,4 +1,7 @@
-// The surface functions that trace.wgsl needs, for flat facets.
+// The surface functions that trace.wgsl needs, for flat facets. The file that imports this one has `plane_of` and
+// `entry`.
+//
+// Imports: trace.
 
 const IS_CURVED: bool = false;
 

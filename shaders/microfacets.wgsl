@@ -5,11 +5,10 @@
 // `roughnesses` holds the tables of surfaces, each of ROUGHNESS_ROWS rows. The first row holds the width of the law
 // of slopes and the mean loss of one reflection. The other rows are the steps of the table of `Roughness::once`: the
 // loss of one reflection at both ends of the step and in its mean, and the even light that is lost in all steps
-// before.
+// before. The file that imports this one has `roughnesses`, and `turns`, which counts the turns of loops.
 //
-// Imports: Finish.
+// Imports: Finish, angles.
 
-const TAU: f32 = 6.2831855;
 // The greatest solid angle that a direction represents: the whole sphere.
 const WHOLE: f32 = 12.566371;
 

@@ -1,5 +1,7 @@
 // The functions that light.wgsl calls, where no metal stands beside the stones; metal.wgsl has them for scenes with
 // metal.
+//
+// Imports: ray, light.
 
 // The state of the random numbers, which is empty, because nothing is decided by chance.
 struct Chances {

@@ -1,20 +1,17 @@
-// Snell's law, Fresnel's formulae and polarisation. Each function and each field has the name of its twin in
-// crates/optics/src and crates/trace/src/coherency.rs, which name the sources; only `reflect` and `refract` are names of
-// WGSL. crates/trace/src/gpu/parity.rs runs both on the same numbers.
+// Snell's law, Fresnel's formulae and polarisation: the twins of crates/optics/src/snell.rs, fresnel.rs and real.rs, which
+// name the sources, and of crates/trace/src/coherency.rs. Functions, fields and constants have the names of their twins,
+// but for `reflect_ray` and `refract_ray`, whose own names WGSL has taken, `weight_of`, whose own name variables have, and
+// `reflectances`, which is `reflectance_s` and `reflectance_p` at once. crates/trace/src/gpu/parity.rs runs both on the
+// same numbers.
 
 // The sine of the angle between a ray and a facet's normal below which the ray counts as perpendicular to the facet.
 const SQUARE_ON: f32 = 1e-4;
-// The least cosine of refraction that a fan is divided by: nearer to the critical angle f32 has no digits left.
-const LEAST_COS_T: f32 = 1e-4;
+// The least cosine that a change of a ray is divided by: nearer to 0 f32 has no digits left.
+const LEAST_COS: f32 = 1e-4;
 
 fn cos_t_squared(cos_i: f32, eta: f32) -> f32 {
     let normal_part = eta * clamp(cos_i, 0.0, 1.0);
     return (1.0 - eta) * (1.0 + eta) + normal_part * normal_part;
-}
-
-// Returns the cosine of the angle of refraction; 0 where reflection is total.
-fn cos_transmitted(cos_i: f32, eta: f32) -> f32 {
-    return sqrt(max(cos_t_squared(cos_i, eta), 0.0));
 }
 
 fn reflect_ray(d: vec3f, n: vec3f, cos_i: f32) -> vec3f {
@@ -45,7 +42,7 @@ fn refracted_change(
     of_eta: f32,
 ) -> vec3f {
     let of_cos_i = -dot(of_d, n) - dot(d, of_n);
-    let of_cos_t = eta * (eta * cos_i * of_cos_i - (1.0 - cos_i * cos_i) * of_eta) / max(cos_t, LEAST_COS_T);
+    let of_cos_t = eta * (eta * cos_i * of_cos_i - (1.0 - cos_i * cos_i) * of_eta) / max(cos_t, LEAST_COS);
     return d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t) + of_n * (eta * cos_i - cos_t);
 }
 

@@ -1,7 +1,7 @@
 // Finds the pixel that an invocation traces. A dispatch takes some tiles of 8 by 8 pixels from everywhere in the
 // strip, so that it is about as heavy as any other; crates/trace/src/gpu/pieces.rs chooses them.
 //
-// Imports: Frame.
+// Imports: ray.
 
 // Returns the column and the row, in the strip, of an invocation's pixel, which may lie beyond the strip.
 fn strip_pixel(group: vec3u, within: vec2u) -> vec2u {

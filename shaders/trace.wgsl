@@ -3,9 +3,8 @@
 // describe the surface. Everything here is in the frame of the body, whose unit lengths and absorption have;
 // pose.wgsl converts to it and back.
 //
-// Imports: Frame, Body, Medium, optics, basis.
+// Imports: Body, Medium, ray, optics, basis.
 
-@group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;
 @group(0) @binding(5) var<storage, read> media: array<vec4f>;
 
@@ -27,15 +26,6 @@ var<private> turns: u32;
 struct Meeting {
     facet: u32,
     distance: f32,
-}
-
-// A ray. `fan` is the change of its direction, and `shift` that of its origin, over the range that the ray
-// represents: a band of wavelengths and a stretch of its pixel.
-struct Ray {
-    origin: vec3f,
-    direction: vec3f,
-    fan: vec3f,
-    shift: vec3f,
 }
 
 // The part of a ray's light that did not leave the stone, and the number of its bounces.
@@ -112,7 +102,7 @@ fn tamed(v: vec3f) -> vec3f {
 // Returns the displacement along the surface of the point where a ray meets it, when the ray there moves by `by`.
 fn along_surface(by: vec3f, direction: vec3f, normal: vec3f) -> vec3f {
     let speed = dot(normal, direction);
-    let divisor = select(min(speed, -LEAST_COS_T), max(speed, LEAST_COS_T), speed > 0.0);
+    let divisor = select(min(speed, -LEAST_COS), max(speed, LEAST_COS), speed > 0.0);
     return limited(by - direction * (dot(normal, by) / divisor));
 }
 

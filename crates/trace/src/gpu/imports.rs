@@ -1,5 +1,6 @@
-//! Joins a shader from its parts. A WGSL file of `shaders` names what it needs in one line, `// Imports: optics, Frame.`:
-//! other files, and the structs of [`gpu_types`].
+//! Joins a shader from its parts. A WGSL file of `shaders` names the files and the structs of [`gpu_types`] that it needs
+//! in one line, `// Imports: optics, Frame.` Functions that differ from shader to shader, as `next_facet`, come from the
+//! files that [`shaders`](super::shaders) chooses; the file that calls them names them at its head.
 
 use super::gpu_types;
 
@@ -14,7 +15,8 @@ macro_rules! files {
 }
 
 /// The files, each by its name.
-const FILES: [(&str, &str); 24] = files![
+const FILES: [(&str, &str); 26] = files![
+    "angles",
     "basis",
     "branching",
     "bvh",
@@ -35,6 +37,7 @@ const FILES: [(&str, &str); 24] = files![
     "planes",
     "pose",
     "random",
+    "ray",
     "scope",
     "tiles",
     "trace",
@@ -104,5 +107,30 @@ mod tests {
         assert!(count > 40, "{count}");
         assert_eq!(imports("// Imports: a, B.\nfn c() {}\n").collect::<Vec<_>>(), ["a", "B"]);
         assert!(joined(&["trace"]).contains("struct Frame {") && joined(&["trace"]).contains("fn fresnel("));
+    }
+    /// Returns the names of the structs and constants that a text declares; all of them begin with a capital.
+    fn declared(text: &str) -> impl Iterator<Item = &str> {
+        let names =
+            text.lines().filter_map(|line| line.strip_prefix("struct ").or(line.strip_prefix("const ")));
+        names.filter_map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next())
+    }
+
+    #[test]
+    fn every_file_imports_the_structs_and_constants_that_it_names() {
+        let all: Vec<&str> = FILES.iter().chain(&STRUCTS).flat_map(|(_, text)| declared(text)).collect();
+        let mut count = 0;
+        for (file, text) in FILES {
+            let own = joined(&[file]);
+            let known: Vec<&str> = declared(&own).collect();
+            let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+            let words = code.flat_map(|line| line.split(|c: char| !c.is_alphanumeric() && c != '_'));
+            // These differ from shader to shader.
+            let is_chosen = |word: &str| ["IS_CURVED", "Chances"].contains(&word);
+            for word in words.filter(|word| all.contains(word) && !is_chosen(word)) {
+                assert!(known.contains(&word), "{file} names {word} and does not import it");
+                count += 1;
+            }
+        }
+        assert!(count > 300, "{count}");
     }
 }

@@ -8,16 +8,8 @@ use glam::DVec3;
 /// A shader that takes the x and y of the vector from a lamp's middle and of the fan, and returns the share of the
 /// fan inside the lamp. The z of both vectors is half of x.
 const SHARE_WGSL: &str = "
-struct Ray {
-    origin: vec3f,
-    direction: vec3f,
-    fan: vec3f,
-    shift: vec3f,
-}
-
 const MOST_LAMPS: u32 = 1u;
 const TEXEL_ANGLE: f32 = 1.0;
-var<private> frame: Frame;
 
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> found: array<f32>;
@@ -52,7 +44,7 @@ fn lamps_are_as_bright_on_the_card_however_far_a_fan_reaches() {
         })
         .collect();
     let chord = format!("const CHORD_SQUARED: f32 = {};\n", CHORD * CHORD);
-    let text = joined(&["Frame", "environment"]) + &chord + SHARE_WGSL;
+    let text = joined(&["environment"]) + &chord + SHARE_WGSL;
     let found: Vec<f32> = run(&gpu, text, &given, None);
     // The largest difference for short fans, and the light of all fans by their length.
     let (mut largest, mut light) = (0.0_f64, [[0.0; 2]; 9]);

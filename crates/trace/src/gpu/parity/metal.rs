@@ -11,7 +11,6 @@ use num_complex::Complex64;
 /// draws from them. The number of the invocation selects the metal. The tables of the surfaces come first in
 /// `roughnesses`, then the finishes.
 const SAMPLES_WGSL: &str = "
-const FRAC_1_PI: f32 = 0.31830988;
 var<private> turns: u32;
 
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
