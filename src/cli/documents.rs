@@ -3,6 +3,7 @@
 use super::{Arguments, parsed, spelt_out};
 use brillianteer_cut::{Cut, FAMILIES, Family};
 use brillianteer_files::library;
+use brillianteer_picture::PictureName;
 use clap::{Command, CommandFactory};
 use shown_commands::{ShownCommand, commands, read};
 use std::collections::BTreeSet;
@@ -50,8 +51,8 @@ fn exists(option: Option<&str>, word: &str) -> bool {
     match option {
         Some("--material") => word.parse::<f64>().is_ok() || brillianteer_optics::material(word).is_ok(),
         Some("--light") => is_file || brillianteer_scene::light(word).is_some(),
-        Some("--views") => word.split(',').all(|name| brillianteer_picture::named(name).is_some()),
-        Some("--scope") => is_file || brillianteer_picture::named(word).is_some(),
+        Some("--views") => word.split(',').all(|name| PictureName::of_key(name).is_some()),
+        Some("--scope") => is_file || PictureName::of_key(word).is_some(),
         Some(_) => true,
         None => {
             is_file || library::cut(word).is_some() || library::scene(word).is_some() || word == "designs"

@@ -10,7 +10,7 @@ use brillianteer_base::Failure;
 use brillianteer_files::is_standard;
 use brillianteer_paper::MOST_PIXELS;
 use brillianteer_paper::export::{self, OutputFormat, Outputs, first_twice};
-use brillianteer_picture::{Picture, named, names};
+use brillianteer_picture::{Picture, PictureName};
 use brillianteer_render::{Card, Renderer};
 use brillianteer_scene::Glare;
 use clap::Args;
@@ -22,7 +22,7 @@ pub struct ExportArguments {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Pictures to make, separated by commas [default: all of them]
-    #[arg(long, value_delimiter = ',', value_parser = names().to_vec())]
+    #[arg(long, value_delimiter = ',', value_parser = PictureName::ALL.map(PictureName::key).to_vec())]
     views: Vec<String>,
     /// A scope of your own, as a file, or a scope's name (see `scopes`); may be given several times
     #[arg(long, value_name = "SCOPE")]
@@ -78,7 +78,10 @@ impl ExportArguments {
             let outputs = self.outputs(file, &pictures);
             let progress = WorkProgress::new(&specimen.design.name);
             let export = export::Export { viewing, outputs: &outputs };
-            if let (true, Err(why)) = (export.files(&renderer)?.is_empty(), specimen.stone()) {
+            let no_facets = || specimen.stone().err().map(|why| why.to_string());
+            let no_contrast = || viewing.why_no_contrast(&renderer).map(|why| why.to_string());
+            if export.files(&renderer)?.is_empty() {
+                let why = no_facets().or_else(no_contrast).unwrap_or_default();
                 return Err(Failure::Usage(format!(
                     "{}: none of the pictures can be drawn: {why}",
                     specimen.path
@@ -116,9 +119,12 @@ impl ExportArguments {
 
     fn pictures(&self) -> Result<Vec<(String, Picture)>, Failure> {
         let all = self.views.is_empty() && self.scope.is_empty();
-        let wanted = if all { names().map(String::from).to_vec() } else { self.views.clone() };
+        let names: Vec<PictureName> = match all {
+            true => PictureName::ALL.to_vec(),
+            false => self.views.iter().filter_map(|view| PictureName::of_key(view)).collect(),
+        };
         let mut pictures: Vec<(String, Picture)> =
-            wanted.into_iter().filter_map(|name| named(&name).map(|p| (name, p))).collect();
+            names.into_iter().map(|name| (name.key().to_owned(), name.picture())).collect();
         for path in &self.scope {
             let scoped = scoped(path)?;
             pictures.push((scoped.scope.name.clone(), Picture::Scoped(scoped)));

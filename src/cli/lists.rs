@@ -8,8 +8,8 @@ use brillianteer_files::{cut_file, light_file, scene_file, scope_file};
 use brillianteer_optics::{Material, line, materials};
 use brillianteer_paper::lighting;
 use brillianteer_paper::table::{Column, Table};
-use brillianteer_picture::{Picture, named, names};
-use brillianteer_scene::{Band, LIGHTS, Scope, light};
+use brillianteer_picture::PictureName;
+use brillianteer_scene::{Band, LIGHTS, light};
 use clap::Args;
 use serde::Serialize;
 use std::path::Path;
@@ -170,7 +170,7 @@ pub struct Scopes {
 
 impl Scopes {
     pub fn run(&self) -> Result<(), Failure> {
-        let all = || names().into_iter().filter_map(scope);
+        let all = || PictureName::ALL.into_iter().filter_map(PictureName::scoped).map(|scoped| scoped.scope);
         if self.json {
             return print_json(&all().collect::<Vec<_>>());
         }
@@ -183,18 +183,11 @@ impl Scopes {
             }
             return print(&table.to_string());
         };
-        let known = || names().into_iter().filter(|n| scope(n).is_some()).collect::<Vec<_>>().join(", ");
-        let scope =
-            scope(name).ok_or_else(|| Failure::Usage(format!("no scope '{name}'; known: {}", known())))?;
+        let known = || all().map(|scope| scope.name).collect::<Vec<_>>().join(", ");
+        let scope = all().find(|scope| scope.name == *name);
+        let scope = scope.ok_or_else(|| Failure::Usage(format!("no scope '{name}'; known: {}", known())))?;
         let text = scope_file::text(&scope).map_err(|e| Failure::Output(e.to_string()))?;
         print(text.trim_end())
-    }
-}
-
-fn scope(name: &str) -> Option<Scope> {
-    match named(name)? {
-        Picture::Scoped(scoped) => Some(scoped.scope),
-        Picture::Profile | Picture::Diagram => None,
     }
 }
 

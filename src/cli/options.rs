@@ -8,7 +8,7 @@ use brillianteer_files::scope_file;
 use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_optics::{INDICES, INDICES_IN_WORDS, Material, line};
 use brillianteer_paper::export::Viewing;
-use brillianteer_picture::{Picture, Scoped, named, names};
+use brillianteer_picture::{PictureName, Scoped};
 use brillianteer_render::{Renderer, Unfit, Wanted};
 use brillianteer_scene::{Glare, HEAD, Lean, Medium, Projection, Side, Viewpoint};
 use clap::{Args, ValueEnum};
@@ -167,13 +167,14 @@ pub struct LightOptions {
 /// Returns the scope of this name that comes with the program, or reads a scope file. A file goes before a name.
 pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
     let name = given.to_string_lossy();
-    if let Some(Picture::Scoped(scoped)) = named(&name).filter(|_| !given.is_file()) {
+    let known = PictureName::of_key(&name).and_then(PictureName::scoped);
+    if let Some(scoped) = known.filter(|_| !given.is_file()) {
         return Ok(scoped);
     }
     let is_name = !given.exists() && given.components().count() == 1 && given.extension().is_none();
     if is_name {
-        let is_scope = |name: &&str| matches!(named(name), Some(Picture::Scoped(_)));
-        let known: Vec<&str> = names().into_iter().filter(is_scope).collect();
+        let scopes = PictureName::ALL.into_iter().filter(|name| name.scoped().is_some());
+        let known: Vec<&str> = scopes.map(PictureName::key).collect();
         let meant = nearest(&name.to_lowercase(), &known);
         let meant = meant.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
         return Err(Failure::Usage(format!(

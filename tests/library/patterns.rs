@@ -6,8 +6,8 @@ use brillianteer::base::{Stopped, unwatched};
 use brillianteer::cut::RoundBrilliant;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{
-    EYE_RESOLVES_MM, Interval, LightMeasures, MeasureName, MeasureSettings, PatternMeasures, PatternSettings,
-    Scintillation, rocked_views,
+    ContrastMap, EYE_RESOLVES_MM, Interval, LightMeasures, MeasureName, MeasureSettings, PatternMeasures,
+    PatternSettings, Scintillation, SquareContrast, rocked_views,
 };
 use brillianteer::optics::{line, material};
 use brillianteer::scene::{Medium, View, elevation_deg};
@@ -16,6 +16,7 @@ use brillianteer::trace::{
     ray::{Camera, RayOptions, StoneTracer},
 };
 use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
 
 const DIAMOND: f64 = 2.4175;
 
@@ -72,6 +73,37 @@ fn finer_beams_narrow_every_interval_of_the_pattern_and_never_leave_it() {
         }
         let last = found[2].iter().filter(|(_, of)| of.error() > 0.1).count();
         assert_eq!(last, 0, "{:?}", found[2]);
+    }
+}
+
+#[test]
+fn a_contrast_map_covers_the_face_once_and_its_mean_square_is_the_contrast_that_an_eye_sees() {
+    let stone = stretched(DVec3::new(1.0, 1.3, 1.0));
+    for view in [View::default(), View { tilt: 0.12, azimuth: 0.2, ..View::default() }] {
+        let beams = traced(&stone, DIAMOND, &view, 0.01);
+        let settings = settings(3.25);
+        let of =
+            |head_deg| ContrastMap::of(&beams, head_deg, &settings.pattern.unwrap(), &unwatched).unwrap();
+        let (map, seen) = (of(settings.head_deg), pattern(&beams, &stone, 3.25).eye_contrast);
+        assert_eq!((map.whole, map.unresolved), (seen, beams.unresolved()));
+        let [mut area, mut first, mut second, mut bounds] = [0.0; 4];
+        for (outline, contrast) in map.parts() {
+            let part = brillianteer::math::area(outline);
+            let SquareContrast { known, bounds: Interval { least, most } } = contrast;
+            assert!(part >= 0.0 && (-1.0..=known).contains(&least) && known <= most, "{contrast:?}");
+            area += part;
+            first += part * known;
+            second += part * known * known;
+            bounds += part * (most - least);
+        }
+        assert!((area / beams.silhouette_area - 1.0).abs() < 1e-9, "{area}");
+        // Squares are brighter and darker by the same amount in all; their root mean square is the known contrast.
+        let rms = (second / area).sqrt();
+        assert!((first / area).abs() < 1e-9, "{first}");
+        assert!(seen.least < rms && rms < seen.most && bounds / area < 0.1, "{rms} is not in {seen:?}");
+        // A wider head makes another map.
+        let other = of(settings.head_deg + 5.0);
+        assert!((other.whole.middle() - rms).abs() > 0.02, "{:?}", other.whole);
     }
 }
 
@@ -219,31 +251,73 @@ fn a_shallow_pavilion_has_a_fish_eye_and_a_usual_one_has_none() {
     assert!(thick.least > 1.3 * found[0].most, "{thick:?}, {found:?}");
 }
 
+/// Follows rays through a square of the image, from its least corner on; returns the number of those that meet the stone, and the
+/// light that they see of an even dome beside a head of 15 degrees.
+fn seen_by_rays(
+    (stone, tracer): (&Polytope, &StoneTracer),
+    view: &View,
+    corner: DVec2,
+    (side, per_side): (f64, u32),
+) -> (u32, f64) {
+    let (camera, zenith) = (Camera::new(view, stone), view.zenith());
+    let (mut hits, mut light) = (0_u32, 0.0);
+    for k in 0..per_side * per_side {
+        let part = DVec2::new(f64::from(k % per_side) + 0.5, f64::from(k / per_side) + 0.5);
+        let (origin, direction) = camera.ray(corner + part / f64::from(per_side) * side);
+        let mut first = true;
+        let followed = tracer.follow(origin, direction, |exit| {
+            let elevation = elevation_deg(exit.direction, zenith);
+            let is_lit = !first && (0.0..75.0).contains(&elevation);
+            light += if is_lit { exit.weight } else { 0.0 };
+            first = false;
+        });
+        hits += u32::from(followed.is_some());
+    }
+    (hits, light)
+}
+
+#[test]
+fn the_contrast_of_a_square_is_that_of_rays_through_it() {
+    let (stone, medium) = (modern(), Medium::clear(DIAMOND));
+    let view = View { tilt: 0.12, azimuth: 0.2, ..View::default() };
+    let beams = traced(&stone, DIAMOND, &view, 0.002);
+    // Seen from 1.5 m, by 25 rays along each side of a square.
+    let coarse = PatternSettings { resolves_mm: 6.0 * EYE_RESOLVES_MM, ..PatternSettings::usual(3.25) };
+    let map = ContrastMap::of(&beams, 15.0, &coarse, &unwatched).unwrap();
+    let (side, per_side) = (coarse.resolves_mm / coarse.unit_mm, 25);
+    let tracer = StoneTracer::new(&stone, medium, RayOptions::default());
+    let mut squares: BTreeMap<[i64; 2], f64> = BTreeMap::new();
+    for (outline, contrast) in map.parts() {
+        let square = (brillianteer::math::centroid(outline) / side).floor().as_i64vec2();
+        squares.insert(square.to_array(), contrast.known);
+    }
+    let rays = |square: &[i64; 2]| {
+        let corner = DVec2::new(square[0] as f64, square[1] as f64) * side;
+        seen_by_rays((&stone, &tracer), &view, corner, (side, per_side))
+    };
+    let seen: Vec<(u32, f64)> = squares.keys().map(rays).collect();
+    let (hits, light) = seen.iter().fold((0, 0.0), |(h, l), (hits, light)| (h + hits, l + light));
+    let mean = light / f64::from(hits);
+    let whole = squares.values().zip(&seen).filter(|(_, (hits, _))| *hits == per_side * per_side);
+    let differences: Vec<f64> =
+        whole.map(|(known, (hits, light))| light / f64::from(*hits) / mean - 1.0 - known).collect();
+    let worst = differences.iter().fold(0.0_f64, |worst, d| worst.max(d.abs()));
+    println!("{} squares, at most {worst:.3} off", differences.len());
+    assert!(differences.len() > 100 && worst < 0.05, "{} squares, {worst}", differences.len());
+}
+
 /// Averages single rays over squares of the image: nothing of it is shared with exact beams but the stone.
 #[test]
 fn the_contrast_of_the_eye_is_that_of_pixels() {
     let (stone, medium, view) = (modern(), Medium::clear(DIAMOND), View::default());
     let found = pattern(&traced(&stone, DIAMOND, &view, 0.003), &stone, 3.25).eye_contrast;
     let tracer = StoneTracer::new(&stone, medium, RayOptions::default());
-    let (camera, zenith) = (Camera::new(&view, &stone), view.zenith());
     let (side, per_side) = (EYE_RESOLVES_MM / 3.25, 5);
     let reach = (1.1 / side).ceil() as i32;
     let [mut area, mut mean, mut square] = [0.0; 3];
     // A quarter of an eightfold face has the contrast of the whole.
     for cell in (0..reach).flat_map(|y| (0..reach).map(move |x| DVec2::new(f64::from(x), f64::from(y)))) {
-        let (mut hits, mut light) = (0_u32, 0.0);
-        for k in 0..per_side * per_side {
-            let part = DVec2::new(f64::from(k % per_side) + 0.5, f64::from(k / per_side) + 0.5);
-            let (origin, direction) = camera.ray((cell + part / f64::from(per_side)) * side);
-            let mut first = true;
-            let followed = tracer.follow(origin, direction, |exit| {
-                let elevation = elevation_deg(exit.direction, zenith);
-                let is_lit = !first && (0.0..75.0).contains(&elevation);
-                light += if is_lit { exit.weight } else { 0.0 };
-                first = false;
-            });
-            hits += u32::from(followed.is_some());
-        }
+        let (hits, light) = seen_by_rays((&stone, &tracer), &view, cell * side, (side, per_side));
         if hits > 0 {
             let weight = f64::from(hits);
             area += weight;

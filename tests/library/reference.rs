@@ -5,7 +5,7 @@ use brillianteer::base::unwatched;
 use brillianteer::cut::{Cut, Design, MaterialRef};
 use brillianteer::io::{cut_file, library};
 use brillianteer::measure::{Bounds, Figures, by_beams, by_rays};
-use brillianteer::picture::{Picture, named};
+use brillianteer::picture::Scoped;
 use brillianteer::render::{MeasureError, MeasureOptions, RenderError, Unfit, Wanted};
 use brillianteer::scene::{
     ASET_CONE, Backing, Band, Medium, Projection, Scope, Side, Stone, View, Viewpoint,
@@ -116,7 +116,7 @@ fn arrows_angles(crown: f64, pavilion: f64) -> [f64; 2] {
 }
 
 fn ideal_scope() -> Scope {
-    let Some(Picture::Scoped(scoped)) = named("ideal-scope") else { panic!("no Ideal-Scope") };
+    let scoped = Scoped::ideal_scope();
     scoped.scope
 }
 

@@ -25,7 +25,7 @@ mod streams;
 mod sweeps;
 
 use brillianteer::io::light_file;
-use brillianteer::picture::names;
+use brillianteer::picture::PictureName;
 use brillianteer::scene::{LIGHTS, light};
 use desk::*;
 use glam::{DVec2, DVec3};
@@ -342,9 +342,9 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
         assert!(listed("scenes", name) && known == read && known["name"] == scene["title"], "{name}");
         assert_eq!(list(&read["stones"]).len() as u64, scene["stones"].as_u64().unwrap());
     }
-    for name in &names()[..7] {
+    for name in PictureName::ALL.into_iter().filter(|name| name.scoped().is_some()).map(PictureName::key) {
         desk.write("scope.toml", desk.done(&format!("scopes {name}")));
-        let side = if *name == "hearts" { "culet" } else { "table" };
+        let side = if name == "hearts" { "culet" } else { "table" };
         let export = "export tolkowsky --size 32 --unresolved 0.1 --format png,svg --out";
         desk.done(&format!("{export} known/{name} --views {name}"));
         desk.done(&format!("{export} read/{name} --scope scope.toml --side {side}"));

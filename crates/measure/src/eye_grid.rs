@@ -7,7 +7,7 @@
 use super::interval::Interval;
 use brillianteer_base::{Stopped, Watch, go_on};
 use brillianteer_math::{Affine, area, clip};
-use brillianteer_trace::beam::Beams;
+use brillianteer_trace::beam::{Beam, Beams};
 use glam::{DMat2, DVec2, IVec2};
 
 /// The least side of a cell, girdle radii, which bounds the number of cells. In stones of more than 72 mm, cells are
@@ -42,7 +42,7 @@ impl EyeCell {
 #[derive(Debug, Clone)]
 pub(super) struct EyeGrid {
     /// The side of a cell, girdle radii.
-    side: f64,
+    pub side: f64,
     /// The place of the first cell, counted in cells from the origin.
     first: IVec2,
     columns: usize,
@@ -64,12 +64,9 @@ impl EyeGrid {
             }
             let beam = beams.get(id);
             for copy in &copies {
-                corners.clear();
-                corners.extend(beam.outline.iter().map(|&p| *copy * p));
-                if copy.determinant() < 0.0 {
-                    corners.reverse();
-                }
-                clipper.spread(&corners, grid.side, |place, area| {
+                copy_outline(beam.outline, copy, &mut corners);
+                clipper.spread(&corners, grid.side, |place, part| {
+                    let area = area(part);
                     grid.add(place, [area, area * bright[id as usize], area * beam.onward]);
                 });
             }
@@ -86,6 +83,21 @@ impl EyeGrid {
             };
         }
         Ok(grid)
+    }
+
+    /// Hands out the face in parts, each of one facet and in one cell, with its cell.
+    pub fn parts_of_face(&self, beams: &Beams, mut each: impl FnMut(&EyeCell, &[DVec2])) {
+        let (copies, mut clipper, mut corners) = (beams.symmetry.copies(), Clipper::default(), vec![]);
+        for beam in beams.iter().filter(Beam::is_surface) {
+            for copy in &copies {
+                copy_outline(beam.outline, copy, &mut corners);
+                clipper.spread(&corners, self.side, |place, part| {
+                    if let Some(cell) = self.index(place).and_then(|k| self.cells.get(k)) {
+                        each(cell, part);
+                    }
+                });
+            }
+        }
     }
 
     /// Makes empty cells over all outlines.
@@ -177,6 +189,15 @@ impl EyeGrid {
     }
 }
 
+/// Writes an outline of one copy of a symmetry's domain, counterclockwise, in place of the old corners.
+fn copy_outline(outline: &[DVec2], copy: &DMat2, corners: &mut Vec<DVec2>) {
+    corners.clear();
+    corners.extend(outline.iter().map(|&p| *copy * p));
+    if copy.determinant() < 0.0 {
+        corners.reverse();
+    }
+}
+
 /// Clips polygons to cells, in memory that is used again.
 #[derive(Default)]
 struct Clipper {
@@ -186,11 +207,11 @@ struct Clipper {
 }
 
 impl Clipper {
-    /// Hands out the area of a polygon in each cell of a grid.
-    fn spread(&mut self, corners: &[DVec2], side: f64, mut each: impl FnMut(IVec2, f64)) {
+    /// Hands out the part of a polygon in each cell of a grid; it may be empty.
+    fn spread(&mut self, corners: &[DVec2], side: f64, mut each: impl FnMut(IVec2, &[DVec2])) {
         let (low, high) = cells_of(corners, side);
         if low == high {
-            return each(low, area(corners));
+            return each(low, corners);
         }
         for y in low.y..=high.y {
             let [from, to] = [y, y + 1].map(|y| f64::from(y) * side);
@@ -204,7 +225,7 @@ impl Clipper {
                 let [from, to] = [x, x + 1].map(|x| f64::from(x) * side);
                 clip(&self.row, Affine::new(-from, DVec2::X), &mut self.half);
                 clip(&self.half, Affine::new(to, DVec2::NEG_X), &mut self.cell);
-                each(IVec2::new(x, y), area(&self.cell));
+                each(IVec2::new(x, y), &self.cell);
             }
         }
     }
@@ -255,7 +276,8 @@ mod tests {
             [(-0.31, -0.22), (0.44, -0.4), (0.61, 0.37), (-0.1, 0.5)].map(|(x, y)| DVec2::new(x, y));
         for side in [0.05, 0.21, 3.0] {
             let (mut sum, mut middle) = (0.0, DVec2::ZERO);
-            Clipper::default().spread(&corners, side, |place, area| {
+            Clipper::default().spread(&corners, side, |place, part| {
+                let area = area(part);
                 sum += area;
                 middle += area * (place.as_dvec2() + 0.5) * side;
                 assert!((-1e-15..=side * side * (1.0 + 1e-12)).contains(&area));

@@ -7,6 +7,7 @@
 
 mod bow_tie;
 mod brilliant_proportions;
+mod contrast_map;
 mod derivatives;
 mod estimated;
 mod exit_sight;
@@ -29,6 +30,7 @@ mod scintillation;
 mod virtual_facets;
 
 pub use brilliant_proportions::brilliant_proportions;
+pub use contrast_map::{ContrastMap, SquareContrast};
 pub use derivatives::MeasureDerivatives;
 pub use estimated::{Estimate, by_beams_and_rays};
 pub use face_patterns::PatternMeasures;

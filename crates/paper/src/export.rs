@@ -1,5 +1,6 @@
 //! Writes a stone's pictures, drawings and figures to files, one after the other.
 
+mod contrast;
 mod event;
 mod figures;
 mod hearts;
@@ -171,12 +172,13 @@ impl Export<'_> {
     /// outputs and tracer do not go together: then nothing can be written.
     pub fn files(&self, renderer: &Renderer) -> Result<Vec<PathBuf>, Failure> {
         let by_beams = self.check(renderer)?;
-        Ok(self.paths(by_beams))
+        Ok(self.paths(renderer, by_beams))
     }
 
-    fn paths(&self, by_beams: bool) -> Vec<PathBuf> {
+    fn paths(&self, renderer: &Renderer, by_beams: bool) -> Vec<PathBuf> {
         let outputs = self.outputs;
-        let drawn = outputs.drawn().flat_map(|(name, picture)| self.files_of(name, picture, by_beams));
+        let drawn =
+            outputs.drawn().flat_map(|(name, picture)| self.files_of(name, picture, (renderer, by_beams)));
         let figures = outputs.wants(OutputFormat::Json).then(|| self.figures_path());
         drawn.chain(figures).collect()
     }
@@ -214,7 +216,7 @@ impl Export<'_> {
         let (viewing, outputs) = (&self.viewing, self.outputs);
         outputs.check()?;
         let mut by_beams = viewing.plans_beams(renderer).unwrap_or(false);
-        self.fits_standard_output(by_beams)?;
+        self.fits_standard_output(renderer, by_beams)?;
         for (name, picture) in outputs.drawn() {
             let Picture::Scoped(scoped) = picture else { continue };
             by_beams = viewing.facing(scoped.side).check(renderer)?;
@@ -226,12 +228,12 @@ impl Export<'_> {
     }
 
     /// Refuses to write several files to standard output.
-    fn fits_standard_output(&self, by_beams: bool) -> Result<(), Failure> {
+    fn fits_standard_output(&self, renderer: &Renderer, by_beams: bool) -> Result<(), Failure> {
         if !is_standard(&self.outputs.folder) {
             return Ok(());
         }
         let named = Outputs { folder: PathBuf::new(), ..self.outputs.clone() };
-        let paths = Export { outputs: &named, ..*self }.paths(by_beams);
+        let paths = Export { outputs: &named, ..*self }.paths(renderer, by_beams);
         if paths.len() == 1 {
             return Ok(());
         }
@@ -249,11 +251,18 @@ impl Export<'_> {
     }
 
     /// Returns the paths of a picture's files, in the order in which they are finished.
-    fn files_of(&self, name: &str, picture: &Picture, by_beams: bool) -> Vec<PathBuf> {
+    fn files_of(
+        &self,
+        name: &str,
+        picture: &Picture,
+        (renderer, by_beams): (&Renderer, bool),
+    ) -> Vec<PathBuf> {
         use OutputFormat::{Exr, Png, Svg};
         let files: &[(&str, OutputFormat)] = match (picture, by_beams) {
             (Picture::Profile | Picture::Diagram, _) if self.viewing.specimen.stone().is_err() => &[],
             (Picture::Profile | Picture::Diagram, _) => &[("", Svg), ("", Png)],
+            (Picture::Contrast, _) if self.viewing.why_no_contrast(renderer).is_some() => &[],
+            (Picture::Contrast, _) => &[("", Png), ("", Exr), ("", Svg)],
             (Picture::Scoped(_), true) => {
                 &[("", Png), ("-strongest", Png), ("", Exr), ("-strongest", Svg), ("", Svg)]
             }
@@ -264,7 +273,8 @@ impl Export<'_> {
             .iter()
             .filter(|(kind, format)| outputs.wants(*format) && (outputs.strongest || kind.is_empty()));
         let suffix = match picture {
-            Picture::Scoped(scoped) => self.viewing.suffix(scoped),
+            Picture::Scoped(scoped) => self.viewing.suffix(scoped.side),
+            Picture::Contrast => self.viewing.suffix(None),
             Picture::Profile | Picture::Diagram => String::new(),
         };
         wanted.map(|(kind, format)| self.outputs.path(&suffix, &format!("{name}{kind}"), *format)).collect()
@@ -286,7 +296,10 @@ impl Export<'_> {
 
 /// Returns the rough effort of a picture, where a picture in a scope counts 1.
 fn effort(picture: &Picture) -> f64 {
-    if matches!(picture, Picture::Scoped(_)) { 1.0 } else { DRAWING }
+    match picture {
+        Picture::Scoped(_) | Picture::Contrast => 1.0,
+        Picture::Profile | Picture::Diagram => DRAWING,
+    }
 }
 
 /// Returns the message about a picture in a format that only exact beams can make.

@@ -36,7 +36,11 @@ impl Caption {
     /// Builds a caption with the zones of a scope as its legend. Long remarks are broken into lines.
     pub fn new(title: &str, remarks: Vec<String>, scope: &Scope) -> Self {
         let zones = scope.bands.iter().enumerate().rev();
-        let zones = zones.map(|(k, band)| (band_text(scope, k), band.colour)).collect();
+        Self::with_legend(title, remarks, zones.map(|(k, band)| (band_text(scope, k), band.colour)).collect())
+    }
+
+    /// Builds a caption whose legend says what each of some colours means.
+    pub fn with_legend(title: &str, remarks: Vec<String>, zones: Vec<(String, [u8; 3])>) -> Self {
         Self { title: title.to_owned(), remarks, zones }
     }
 

@@ -95,6 +95,26 @@ impl Layer {
         layer
     }
 
+    /// Builds a picture of values that are even over polygons of the whole image, a channel for each of these names, and the
+    /// polygons' cover. `open` is the part of the light that is unresolved.
+    pub fn of_values<'a, const N: usize>(
+        names: [&str; N],
+        polygons: impl Iterator<Item = (&'a [DVec2], [f64; N])>,
+        open: f64,
+    ) -> Self {
+        let channels = names.into_iter().chain([COVER]).map(str::to_owned).collect();
+        let mut layer =
+            Self { corners: vec![], patches: vec![], copies: vec![DMat2::IDENTITY], channels, open };
+        for (outline, values) in polygons {
+            values
+                .into_iter()
+                .chain([1.0])
+                .enumerate()
+                .for_each(|(channel, value)| layer.add(outline, channel, value));
+        }
+        layer
+    }
+
     fn new(beams: &Beams, mut channels: Vec<String>) -> Self {
         channels.push(COVER.into());
         let cover = channels.len() - 1;

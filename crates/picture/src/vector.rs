@@ -1,14 +1,16 @@
 //! Pictures as drawings: the virtual facets themselves, as polygons of an SVG. Only one domain of a picture's
 //! symmetry is written out; its copies refer to it, and name the facets that replace those of a path.
 
+use super::contrast::contrast_colour;
 use super::drawing::{hex, page};
 use brillianteer_math::{Basis, Plane};
 use brillianteer_optics::{LinearRgb, encoded_from_linear};
 use brillianteer_scene::{Film, Glare, Scope, Stone, elevation_deg};
 use brillianteer_trace::beam::Beams;
 use glam::{DAffine2, DMat2, DVec2, DVec3};
+use std::collections::BTreeMap;
 use svg::Document;
-use svg::node::element::{Definitions, Description, Group, Polygon, Rectangle, Title, Use};
+use svg::node::element::{Definitions, Description, Group, Path, Polygon, Rectangle, Title, Use};
 
 /// Side of the drawing, in its own units; coordinates have four decimals.
 pub const SIDE: u32 = 1000;
@@ -69,6 +71,35 @@ pub fn energy(stone: &Stone, beams: &Beams, (scope, glare): (&Scope, Glare), tit
     page.document(title, &open, beams, (&hex(scope.bands[0].colour), vec![group]))
 }
 
+/// The steps of contrast that a drawing tells apart, each 1 % of the face's mean brightness.
+const CONTRAST_STEPS: f64 = 100.0;
+
+/// Draws a contrast map: the parts of the face, each with its contrast. Parts of about the same contrast are one path, which says it
+/// (`data-contrast`).
+pub fn contrast<'a>(
+    stone: &Stone,
+    beams: &Beams,
+    parts: impl Iterator<Item = (&'a [DVec2], f64)>,
+    (title, open): (&str, &str),
+) -> Document {
+    let page = Page::of_whole(stone, beams);
+    let mut paths: BTreeMap<i32, String> = BTreeMap::new();
+    for (outline, contrast) in parts {
+        let data = paths.entry((CONTRAST_STEPS * contrast.min(1.0)).round() as i32).or_default();
+        data.push_str(&page.path(outline));
+    }
+    let coloured = |(step, data): (i32, String)| {
+        let contrast = f64::from(step) / CONTRAST_STEPS;
+        let colour = hex(contrast_colour(contrast));
+        let path = Path::new().set("d", data).set("data-contrast", contrast);
+        path.set("fill", colour.as_str()).set("stroke", colour)
+    };
+    let group =
+        Group::new().set("class", "contrast").set("stroke-width", SEAM).set("stroke-linejoin", "round");
+    let group = paths.into_iter().map(coloured).fold(group, Group::add);
+    page.document(title, open, beams, ("#000000", vec![group]))
+}
+
 /// Width of a line in each polygon's own colour. It closes the hairlines that viewers leave between polygons that touch.
 const SEAM: f64 = 0.8;
 
@@ -93,10 +124,31 @@ impl<'a> Page<'a> {
         Self { stone, film, copies, carried }
     }
 
+    /// Returns the page of a drawing that writes out the whole picture.
+    fn of_whole(stone: &'a Stone, beams: &Beams) -> Self {
+        let film = Film::around(&stone.polytope, &beams.view, SIDE);
+        Self { stone, film, copies: vec![], carried: vec![] }
+    }
+
+    /// Returns the corners of an outline of the first copy in the drawing's units.
+    fn points(&self, outline: &[DVec2]) -> Vec<DVec2> {
+        let map = self.film.pixels_from_image(DMat2::IDENTITY);
+        outline.iter().map(|&p| map.transform_point2(p)).collect()
+    }
+
+    /// Returns an outline as a part of a path's data; empty for a speck.
+    fn path(&self, outline: &[DVec2]) -> String {
+        let points = self.points(outline);
+        if brillianteer_math::area(&points).abs() <= SPECK {
+            return String::new();
+        }
+        let corners: Vec<String> = points.iter().map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect();
+        format!("M{}Z", corners.join("L"))
+    }
+
     /// Returns an outline of the first copy in the drawing's units; `None` for a speck.
     fn polygon(&self, outline: &[DVec2]) -> Option<Polygon> {
-        let map = self.film.pixels_from_image(DMat2::IDENTITY);
-        let points: Vec<DVec2> = outline.iter().map(|&p| map.transform_point2(p)).collect();
+        let points = self.points(outline);
         let is_large = brillianteer_math::area(&points).abs() > SPECK;
         is_large.then(|| Polygon::new().set("points", listed(&points)))
     }

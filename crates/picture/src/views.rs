@@ -1,17 +1,18 @@
 //! The pictures that the program knows by name.
 //!
-//! To add a picture of exports, add a variant of `Picture` and a row to `PICTURES`. The compiler asks for most arms
-//! in `crates/paper/src/export.rs`, `crates/paper/src/export/pictures.rs` and `src/cli/lists.rs`; look also at each
-//! `Picture::Scoped` in `export.rs`. The editor shows a picture by a row of `crates/session/src/shows.rs` with the same key. A
-//! scope of one's own needs no code: it is a file.
+//! To add a picture, add a variant and a row of `PictureName`; one that is no scope is a variant of `Picture` too, and the
+//! compiler asks for its arms in `crates/paper/src/export.rs`, `export/pictures.rs` and `src/cli/lists.rs`. The editor shows it by
+//! a row of `crates/session/src/shows.rs` with the same key. A scope of one's own needs no code: it is a file.
 
 use brillianteer_scene::{ASET_CONE, Backing, Scope, Side, VIEWER_CONES_DEG};
 
-/// A picture that has a name.
+/// A picture of a stone.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Picture {
     /// The stone's light in a scope.
     Scoped(Scoped),
+    /// The contrast map: how much brighter or darker than the whole face each square is that an eye resolves.
+    Contrast,
     /// The profile: the side view with its dimensions.
     Profile,
     /// The facet diagram: crown and pavilion with their tiers.
@@ -33,10 +34,38 @@ pub struct Scoped {
 /// narrowest at which ideal cuts have the whole dark arrows of graders' pictures (docs/optics.md, "Ideal-Scope's hole").
 const IDEAL_SCOPE_HOLE: f64 = 15.0;
 
+/// Half angle of the head's cone for an observer who is closer, in degrees.
+const CLOSE_CONE: f64 = 40.0;
+
 impl Scoped {
     /// Returns the common ASET; unless another scope is chosen, figures use its zones.
     pub fn aset() -> Self {
         Self { scope: Scope::aset(ASET_CONE, Backing::Black), side: None, takes_head: true }
+    }
+
+    /// Returns the Ideal-Scope.
+    pub fn ideal_scope() -> Self {
+        Self { scope: Scope::ideal_scope(IDEAL_SCOPE_HOLE), side: None, takes_head: false }
+    }
+
+    /// Returns the viewer of hearts, which looks at the pavilion.
+    pub fn hearts() -> Self {
+        Self::viewer("hearts", [226, 0, 40], Side::Culet)
+    }
+
+    /// Returns the viewer of arrows, which looks at the table.
+    pub fn arrows() -> Self {
+        Self::viewer("arrows", [0, 72, 186], Side::Table)
+    }
+
+    fn viewer(name: &str, colour: [u8; 3], side: Side) -> Self {
+        let (camera, ring) = VIEWER_CONES_DEG;
+        let scope = Scope::hearts_and_arrows(name, camera, ring, colour);
+        Self { scope, side: Some(side), takes_head: false }
+    }
+
+    fn aset_of(cone_deg: f64, backing: Backing) -> Self {
+        Self { scope: Scope::aset(cone_deg, backing), ..Self::aset() }
     }
 
     /// Returns the scope with an observer's head of this half angle, in degrees, if it takes one.
@@ -45,39 +74,90 @@ impl Scoped {
     }
 }
 
-/// A picture's name, and the function that makes the picture.
-type NamedPicture = (&'static str, fn(&str) -> Picture);
-
-/// The pictures by name, in the order in which they are drawn.
-const PICTURES: [NamedPicture; 9] = [
-    ("aset", |_| Picture::Scoped(Scoped::aset())),
-    ("aset-white", |_| scoped(Scope::aset(ASET_CONE, Backing::White), None, true)),
-    ("aset-40", |_| scoped(Scope::aset(40.0, Backing::Black), None, true)),
-    ("aset-40-white", |_| scoped(Scope::aset(40.0, Backing::White), None, true)),
-    ("ideal-scope", |_| scoped(Scope::ideal_scope(IDEAL_SCOPE_HOLE), None, false)),
-    ("hearts", |name| scoped(viewer(name, [226, 0, 40]), Some(Side::Culet), false)),
-    ("arrows", |name| scoped(viewer(name, [0, 72, 186]), Some(Side::Table), false)),
-    ("profile", |_| Picture::Profile),
-    ("diagram", |_| Picture::Diagram),
-];
-
-fn scoped(scope: Scope, side: Option<Side>, takes_head: bool) -> Picture {
-    Picture::Scoped(Scoped { scope, side, takes_head })
+/// The pictures that have a name, in the order in which they are drawn and listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureName {
+    /// The common ASET.
+    Aset,
+    /// The common ASET, lit from behind.
+    AsetWhite,
+    /// The ASET for an observer who is closer.
+    Aset40,
+    /// The ASET for an observer who is closer, lit from behind.
+    Aset40White,
+    /// The Ideal-Scope.
+    IdealScope,
+    /// The viewer of hearts.
+    Hearts,
+    /// The viewer of arrows.
+    Arrows,
+    /// The contrast map.
+    Contrast,
+    /// The profile.
+    Profile,
+    /// The facet diagram.
+    Diagram,
 }
 
-fn viewer(name: &str, colour: [u8; 3]) -> Scope {
-    let (camera, ring) = VIEWER_CONES_DEG;
-    Scope::hearts_and_arrows(name, camera, ring, colour)
-}
+impl PictureName {
+    /// All names.
+    pub const ALL: [Self; 10] = [
+        Self::Aset,
+        Self::AsetWhite,
+        Self::Aset40,
+        Self::Aset40White,
+        Self::IdealScope,
+        Self::Hearts,
+        Self::Arrows,
+        Self::Contrast,
+        Self::Profile,
+        Self::Diagram,
+    ];
 
-/// Returns all names, in the order in which the pictures are drawn.
-pub fn names() -> [&'static str; 9] {
-    PICTURES.map(|(name, _)| name)
-}
+    /// Returns the name as users write it, and as it stands in the names of files.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Aset => "aset",
+            Self::AsetWhite => "aset-white",
+            Self::Aset40 => "aset-40",
+            Self::Aset40White => "aset-40-white",
+            Self::IdealScope => "ideal-scope",
+            Self::Hearts => "hearts",
+            Self::Arrows => "arrows",
+            Self::Contrast => "contrast",
+            Self::Profile => "profile",
+            Self::Diagram => "diagram",
+        }
+    }
 
-/// Returns the picture of this name; `None` if no picture has it.
-pub fn named(name: &str) -> Option<Picture> {
-    PICTURES.iter().find(|(known, _)| *known == name).map(|(name, picture)| picture(name))
+    /// Returns the name that users write so; `None` if there is none.
+    pub fn of_key(key: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|name| name.key() == key)
+    }
+
+    /// Returns the picture of this name.
+    pub fn picture(self) -> Picture {
+        Picture::Scoped(match self {
+            Self::Aset => Scoped::aset(),
+            Self::AsetWhite => Scoped::aset_of(ASET_CONE, Backing::White),
+            Self::Aset40 => Scoped::aset_of(CLOSE_CONE, Backing::Black),
+            Self::Aset40White => Scoped::aset_of(CLOSE_CONE, Backing::White),
+            Self::IdealScope => Scoped::ideal_scope(),
+            Self::Hearts => Scoped::hearts(),
+            Self::Arrows => Scoped::arrows(),
+            Self::Contrast => return Picture::Contrast,
+            Self::Profile => return Picture::Profile,
+            Self::Diagram => return Picture::Diagram,
+        })
+    }
+
+    /// Returns the scope of this name; `None` where the picture is not one in a scope.
+    pub fn scoped(self) -> Option<Scoped> {
+        match self.picture() {
+            Picture::Scoped(scoped) => Some(scoped),
+            Picture::Contrast | Picture::Profile | Picture::Diagram => None,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -86,15 +166,12 @@ mod tests {
 
     #[test]
     fn every_name_has_its_picture_and_every_scope_its_name() {
-        for name in names() {
-            match named(name) {
-                Some(Picture::Scoped(s)) => {
-                    assert_eq!(s.scope.name, name);
-                    assert_eq!(s.scope.validate(), Ok(()), "{name}");
-                }
-                other => assert!(other.is_some() && (name == "profile" || name == "diagram"), "{name}"),
+        for name in PictureName::ALL {
+            assert_eq!(PictureName::of_key(name.key()), Some(name));
+            if let Some(scoped) = name.scoped() {
+                assert_eq!((scoped.scope.name.as_str(), scoped.scope.validate()), (name.key(), Ok(())));
             }
         }
-        assert_eq!(named("asset"), None);
+        assert_eq!(PictureName::of_key("asset"), None);
     }
 }

@@ -1,6 +1,8 @@
 //! The ranges of all numbers of a job. A job may come from another program, so it is checked before it is planned.
 
-use super::job::{Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality};
+use super::job::{
+    ContrastProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality,
+};
 use super::surroundings::Surroundings;
 use brillianteer_optics::{DispersionError, INDICES, INDICES_IN_WORDS};
 use brillianteer_scene::{
@@ -183,6 +185,7 @@ impl Job {
             }
             Product::Figures(product) => check_scope(&product.scope, &product.medium),
             Product::Measures(product) => product.check(),
+            Product::Contrast(product) => product.check(),
             Product::LiquidGlass(pane) => pane.check(),
         }
     }
@@ -196,7 +199,7 @@ impl Quality {
         let counts = match product {
             Product::Light(_) | Product::RefractionMap(_) | Product::LiquidGlass(_) => PASSES,
             Product::Scope(_) => RAYS,
-            Product::Figures(_) | Product::Measures(_) => LATTICES,
+            Product::Figures(_) | Product::Measures(_) | Product::Contrast(_) => LATTICES,
         };
         self.samples.map_or(Ok(()), |samples| demand_count("quality.samples", samples, &counts))?;
         Ok(())
@@ -233,6 +236,17 @@ impl MeasuresProduct {
                 |rock| demand(is_rock(rock), "settings.pattern.rock_deg", rock, "above 0 to 45 degrees");
             pattern.rock_deg.map_or(Ok(()), rock)?;
         }
+        Ok(())
+    }
+}
+
+impl ContrastProduct {
+    fn check(&self) -> Result<(), JobError> {
+        let Self { head_deg, pattern, medium } = self;
+        check_medium(medium)?;
+        demand(is_head(*head_deg), "head_deg", *head_deg, HEADS)?;
+        positive("pattern.resolves_mm", pattern.resolves_mm)?;
+        positive("pattern.unit_mm", pattern.unit_mm)?;
         Ok(())
     }
 }

@@ -7,12 +7,11 @@
 //! To add a reading of a scope's light, which beams, rays and the card can all give, add a variant of `Reading`,
 //! its layer in `crates/picture/src/layer.rs`, its channels in `by_rays.rs` and `by_gpu.rs` there, and its arms in
 //! `scope` and in `crates/paper/src/export/sheet.rs`. Other colours for the same light need no product: they are
-//! another palette. Numbers that only exact beams have need none either: order a scope without readings by beams,
-//! and paint a `Layer` of `Rendered::beams`.
+//! another palette.
 
 use super::Wanted;
 use super::surroundings::Surroundings;
-use brillianteer_measure::{Bounds, MeasureName, MeasureSettings};
+use brillianteer_measure::{Bounds, MeasureName, MeasureSettings, PatternSettings};
 use brillianteer_optics::Strata;
 use brillianteer_picture::liquid_glass::GlassPane;
 use brillianteer_picture::{Backdrop, Linear, Survey, enlarged};
@@ -54,6 +53,8 @@ pub enum Product {
     Figures(FiguresProduct),
     /// Measures of light.
     Measures(MeasuresProduct),
+    /// The contrast that an eye resolves on the face.
+    Contrast(ContrastProduct),
 }
 
 /// A picture of stones under light.
@@ -173,6 +174,17 @@ pub struct MeasuresProduct {
     pub derivatives: Vec<MeasureName>,
 }
 
+/// The contrast that an eye resolves on the face of one stone, from exact beams.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ContrastProduct {
+    /// The half angle of the observer's head under the even dome, degrees, 0 to 89.
+    pub head_deg: f64,
+    /// The size of the stone and the resolution of the eye; the stone does not rock.
+    pub pattern: PatternSettings,
+    /// The stone's medium.
+    pub medium: Medium,
+}
+
 /// The accuracy of a job, and its tracer.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
@@ -240,7 +252,11 @@ impl Job {
         match &self.product {
             Product::Light(light) => Some(self.lit_scene(&light.surroundings)),
             Product::RefractionMap(map) => Some(self.lit_scene(&map.surroundings)),
-            Product::Scope(_) | Product::LiquidGlass(_) | Product::Figures(_) | Product::Measures(_) => None,
+            Product::Scope(_)
+            | Product::LiquidGlass(_)
+            | Product::Figures(_)
+            | Product::Measures(_)
+            | Product::Contrast(_) => None,
         }
     }
 

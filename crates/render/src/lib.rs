@@ -8,6 +8,7 @@ mod beam_cache;
 mod behind_glass;
 mod card;
 mod check;
+mod contrast;
 mod gradient;
 mod job;
 mod light;
@@ -25,10 +26,11 @@ mod tests;
 
 pub use card::{Backend, Card, NoCard};
 pub use check::{JobError, OutOfRange};
+pub use contrast::TakenContrast;
 pub use gradient::{GradedStone, LEAST_TIER_DEG, MeasureGradient, MeasureSlope, MeasureSlopes, PlaneChanges};
 pub use job::{
-    FiguresProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality, Reading,
-    ScopeProduct, Steps, mixture_note,
+    ContrastProduct, FiguresProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product,
+    Quality, Reading, ScopeProduct, Steps, mixture_note,
 };
 pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};

@@ -86,10 +86,10 @@ pub enum Unfit {
     /// Light is followed through fewer bounces than usual.
     #[error("exact beams cannot end after some bounces: trace by rays, or follow 64 bounces")]
     FewBounces,
-    /// Measures of light are requested for something that exact beams cannot trace, or from another tracer.
+    /// Measures of light, or a contrast map, are requested for something that exact beams cannot trace, or from another tracer.
     #[error(
-        "measures of light are sums over exact beams: they need a convex stone between planes, parallel rays, and no other \
-         tracer"
+        "measures of light and contrast maps are sums over exact beams: they need a convex stone between planes, parallel rays, \
+         and no other tracer"
     )]
     OnlyBeams,
     /// Light is followed along many paths at once, as in refraction maps and liquid glass.
@@ -130,14 +130,18 @@ impl Demands {
     pub fn of(job: &Job) -> Result<Self, Unfit> {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
-            Product::Scope(_) | Product::Figures(_) | Product::Measures(_) | Product::RefractionMap(_)
+            Product::Scope(_)
+            | Product::Figures(_)
+            | Product::Measures(_)
+            | Product::Contrast(_)
+            | Product::RefractionMap(_)
                 if !job.scene.metals.is_empty() =>
             {
                 Err(Unfit::Metal)
             }
             Product::Scope(_) | Product::Figures(_) => Self::of_scope(job.stone()?, &job.view),
             Product::RefractionMap(_) if job.scene.is_frosted() => Err(Unfit::Frosted),
-            Product::Measures(_) => Self::of_measures(job),
+            Product::Measures(_) | Product::Contrast(_) => Self::of_measures(job),
             Product::RefractionMap(_) | Product::LiquidGlass(_) => {
                 Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing, no_card: None })
             }

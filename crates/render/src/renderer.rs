@@ -14,6 +14,7 @@
 
 use super::beam_cache::BeamCache;
 use super::card::{Backend, Card};
+use super::contrast::TakenContrast;
 use super::job::{Job, Product, Reading, Steps};
 use super::plan::{Demands, Plan, Unfit, plan};
 use brillianteer_base::{Failure, Stopped, Watch};
@@ -94,6 +95,8 @@ pub enum Output {
     Figures(Box<Measured>),
     /// The measures of a stone's light.
     Measures(Box<TakenMeasures>),
+    /// The contrast of a stone's face.
+    Contrast(Box<TakenContrast>),
 }
 
 /// The measures of a stone's light, with the requested derivatives.
@@ -259,6 +262,7 @@ impl Renderer {
             Product::Scope(scope) => self.scope(job, scope, (backend, samples), watch, each)?,
             Product::Figures(figures) => self.figures(job, figures, (backend, samples), watch)?,
             Product::Measures(measures) => self.light_measures(job, measures, watch)?,
+            Product::Contrast(contrast) => self.contrast(job, contrast, watch)?,
             Product::RefractionMap(map) => map.render(job, samples, watch)?,
             Product::LiquidGlass(pane) => pane.render(samples, watch)?,
         };
@@ -288,7 +292,7 @@ fn usual_samples(product: &Product, backend: &Backend) -> u32 {
         Product::Scope(_) => RAYS_PER_SIDE,
         Product::RefractionMap(_) => PASSES_OF_MAPS,
         Product::LiquidGlass(_) => PASSES_OF_PANES,
-        Product::Figures(_) | Product::Measures(_) => LATTICE,
+        Product::Figures(_) | Product::Measures(_) | Product::Contrast(_) => LATTICE,
     }
 }
 
@@ -363,6 +367,17 @@ impl Rendered {
     pub fn measures(self) -> Result<TakenMeasures, RenderError> {
         match self.output {
             Output::Measures(measures) => Ok(*measures),
+            _ => Err(RenderError::OtherProduct),
+        }
+    }
+
+    /// Returns the contrast of the face.
+    ///
+    /// # Errors
+    /// Fails with [`RenderError::OtherProduct`] for another product.
+    pub fn contrast(self) -> Result<TakenContrast, RenderError> {
+        match self.output {
+            Output::Contrast(contrast) => Ok(*contrast),
             _ => Err(RenderError::OtherProduct),
         }
     }

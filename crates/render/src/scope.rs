@@ -203,7 +203,7 @@ impl Job {
     }
 
     /// Returns the body that exact beams trace, with its polytope.
-    fn convex(&self) -> Result<(&Arc<Body>, &Polytope), RenderError> {
+    pub(super) fn convex(&self) -> Result<(&Arc<Body>, &Polytope), RenderError> {
         let stone = self.scene.instances.first().ok_or(Unfit::NoStone)?;
         let polytope = &stone.body.stone().map_err(Unfit::from)?.polytope;
         Ok((&stone.body, polytope))

@@ -1,18 +1,17 @@
 //! The pictures and drawings that a view can show.
 //!
-//! To add one, add a row. A picture in a scope needs nothing else, because its key is that of a `Picture::Scoped`.
-//! Any other needs an arm in `ShotTracer::take` (`studio/take.rs`), a job in `studio/jobs.rs`, and a line in
-//! `PartialEq for Shot` (`studio/order.rs`) for each new setting; one that is not traced is drawn in
-//! `views/pane.rs` or looked up in `tasks/lookup.rs`. Those that exports offer stand first; `EXPORTED` counts them.
-//! Say in `is_seen`, `takes_overlay`, `has_copies` and `is_pane` what it is: the compiler does not ask.
+//! To add one, add a row, and its kind in `Shows::kind`. A picture in a scope needs nothing else. For any other the compiler asks
+//! in `ShotTracer::take` (`studio/take.rs`) and in `Shot::subject` (`studio/order.rs`), which says what it depends on; its job
+//! stands in `studio/jobs.rs`. One that is not traced is drawn in `views/pane.rs` or looked up in `tasks/lookup.rs`. Those that
+//! exports offer stand first; `EXPORTED` counts them. Say in `is_seen`, `needs_facets` and the like what it is.
 
 use crate::described::described;
-use brillianteer_picture::{Picture, Scoped, named};
+use brillianteer_picture::{Picture, PictureName, Scoped};
 use brillianteer_scene::Side;
 use serde::{Deserialize, Serialize};
 
 described! {
-/// The picture in a view. Its key is the one of [`named`] where the picture is exported.
+/// The picture in a view. Its key is that of its [`PictureName`] where it has one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Shows by key {
     Render: "render", "Render", "The stone as it looks under the chosen light, with its dispersion.";
@@ -26,6 +25,9 @@ pub enum Shows by key {
     Hearts: "hearts", "Hearts",
         "The hearts viewer, face down. Eight equal hearts need symmetric pavilion facets.";
     Arrows: "arrows", "Arrows", "The arrows viewer, face up: eight arrows from the pavilion mains.";
+    Contrast: "contrast", "Contrast map",
+        "How much brighter or darker each place is than the whole face, as finely as an eye resolves the stone at 25 cm, under \
+         an even sky with the observer's head. Gold is brighter, grey as bright, blue darker.";
     Profile: "profile", "Profile",
         "The stone from the side with its proportions; drag its edges to change them.";
     Diagram: "diagram", "Facet diagram",
@@ -47,14 +49,48 @@ impl Shows {
     /// The variants that are exported as pictures of the stone.
     ///
     /// Refraction maps are exported as maps; panes of liquid glass are no pictures of the stone.
-    pub const EXPORTED: &'static [Self] = Self::ALL.split_at(9).0;
+    pub const EXPORTED: &'static [Self] = Self::ALL.split_at(10).0;
+
+    /// Returns the name of the picture that exports and the command line make of it; `None` where they make none.
+    pub fn picture(self) -> Option<PictureName> {
+        match self {
+            Self::Aset => Some(PictureName::Aset),
+            Self::AsetWhite => Some(PictureName::AsetWhite),
+            Self::Aset40 => Some(PictureName::Aset40),
+            Self::IdealScope => Some(PictureName::IdealScope),
+            Self::Hearts => Some(PictureName::Hearts),
+            Self::Arrows => Some(PictureName::Arrows),
+            Self::Contrast => Some(PictureName::Contrast),
+            Self::Profile => Some(PictureName::Profile),
+            Self::Diagram => Some(PictureName::Diagram),
+            Self::Render | Self::Refraction | Self::LiquidGlass | Self::TracedPane => None,
+        }
+    }
+
+    /// Returns how the picture is made.
+    pub fn kind(self) -> ShowsKind {
+        match (self, self.picture().map(PictureName::picture)) {
+            (_, Some(picture)) => ShowsKind::Picture(picture),
+            (Self::Refraction, None) => ShowsKind::Refraction,
+            (Self::LiquidGlass, None) => ShowsKind::LiquidGlass,
+            (Self::TracedPane, None) => ShowsKind::TracedPane,
+            (_, None) => ShowsKind::Render,
+        }
+    }
 
     /// Returns the scope that the stone is seen in, if any.
     pub fn scoped(self) -> Option<Scoped> {
-        match named(self.key()) {
-            Some(Picture::Scoped(scoped)) => Some(scoped),
-            _ => None,
-        }
+        self.picture().and_then(PictureName::scoped)
+    }
+
+    /// Returns whether the picture is one of stones with flat facets alone.
+    pub fn needs_facets(self) -> bool {
+        matches!(self, Self::Contrast | Self::Profile | Self::Diagram)
+    }
+
+    /// Returns whether the stone can be seen from nearby; a contrast map is of parallel rays.
+    pub fn takes_perspective(self) -> bool {
+        self.is_seen() && self != Self::Contrast
     }
 
     /// Returns the side that the picture is made for; `None` for either side.
@@ -88,6 +124,21 @@ impl Shows {
     }
 }
 
+/// How a picture is made.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ShowsKind {
+    /// Stones under light.
+    Render,
+    /// A picture that exports make as well.
+    Picture(Picture),
+    /// A background, looked up in a refraction map.
+    Refraction,
+    /// A pane that formulas draw.
+    LiquidGlass,
+    /// A pane that is traced.
+    TracedPane,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -99,5 +150,9 @@ mod tests {
         assert_eq!(Shows::EXPORTED.last(), Some(&Shows::Diagram));
         assert_eq!(Shows::Hearts.side(), Some(Side::Culet));
         assert!(Shows::ALL.into_iter().all(|s| s.meaning().ends_with('.')));
+        let named = |s: &Shows| s.picture().is_none_or(|name| name.key() == s.key());
+        assert!(Shows::ALL.iter().all(named));
+        let renders = Shows::ALL.into_iter().filter(|s| s.kind() == ShowsKind::Render);
+        assert_eq!(renders.collect::<Vec<_>>(), [Shows::Render]);
     }
 }

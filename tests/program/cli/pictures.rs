@@ -2,7 +2,7 @@
 
 use super::desk::*;
 use super::{PARTS, ZONES};
-use brillianteer::picture::names;
+use brillianteer::picture::{Picture, PictureName};
 use glam::{DAffine2, DVec2, DVec3};
 use resvg::usvg::roxmltree::{Document, Node};
 use serde_json::Value;
@@ -24,11 +24,13 @@ fn export_makes_every_picture_in_every_format_and_the_same_bytes_on_any_number_o
     });
     let made: Vec<_> = made.collect();
     let mut expected = vec!["tolkowsky-figures.json".to_string()];
-    for name in names() {
-        let drawing = name == "profile" || name == "diagram";
-        let endings = [".png", ".svg", ".exr", "-strongest.svg", "-strongest.png"];
-        expected
-            .extend(endings[..if drawing { 2 } else { 5 }].iter().map(|e| format!("tolkowsky-{name}{e}")));
+    for name in PictureName::ALL {
+        let endings: &[&str] = match name.picture() {
+            Picture::Scoped(_) => &[".png", ".svg", ".exr", "-strongest.svg", "-strongest.png"],
+            Picture::Contrast => &[".png", ".svg", ".exr"],
+            Picture::Profile | Picture::Diagram => &[".png", ".svg"],
+        };
+        expected.extend(endings.iter().map(|ending| format!("tolkowsky-{}{ending}", name.key())));
     }
     for file in expected.iter().filter(|f| f.ends_with(".png")) {
         let ((width, height), _, description) = png(&desk.at("0").join(file));

@@ -86,6 +86,12 @@ fn perspective_is_of_one_view_and_what_becomes_a_scope_is_seen_along_parallel_ra
     bench.harness.key_press(Key::P);
     bench.harness.run_steps(2);
     assert!(matches!(projection(&bench, 0), Projection::Perspective { .. }), "it was asked for here");
+    bench.harness.state_mut().model.workspace.show(0, Shows::Contrast);
+    for _ in 0..2 {
+        bench.harness.run_steps(2);
+        assert_eq!(projection(&bench, 0), Projection::Orthographic, "exact beams trace no perspective");
+        bench.harness.key_press(Key::P);
+    }
 }
 
 #[test]

@@ -46,7 +46,7 @@ impl Mode {
                 let meaning = "This view has a tilt and a zoom of its own.";
                 mode("unlinked", meaning, ViewAction::Link(pane, true))
             }),
-            is_near.then(|| {
+            (is_near && shows.takes_perspective()).then(|| {
                 let meaning = "The stone is seen from nearby, not along parallel rays.";
                 mode("perspective", meaning, ViewAction::EndPerspective(pane))
             }),

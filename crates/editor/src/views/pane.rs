@@ -22,6 +22,7 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, rect: Rect) -> [u32; 2] {
     match cx.shows {
         Shows::Profile => profile(cx, ui, body),
         Shows::Diagram => drawing(cx, ui, body),
+        Shows::Contrast if cx.model.document.specimen().stone().is_err() => no_contrast(cx, ui, body),
         shows if shows.is_pane() => liquid_view::show(cx, ui, body),
         _ => scene_view::show(cx, ui, body, size),
     }
@@ -65,7 +66,15 @@ fn drawing(cx: &mut PaneContext, ui: &Ui, body: Rect) {
     attend(cx, &response, response.hovered());
 }
 
-/// Draws a text in the place of a drawing that only convex stones have.
+/// Says that the stone has no contrast map.
+fn no_contrast(cx: &mut PaneContext, ui: &Ui, body: Rect) {
+    let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Contrast map picture"));
+    absent(ui, body, "A contrast map");
+    attend(cx, &response, response.hovered());
+}
+
+/// Draws a text in the place of a picture that only convex stones have.
 fn absent(ui: &Ui, body: Rect, what: &str) {
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     let text = format!("{what} can be drawn only of convex stones with flat facets.");

@@ -6,7 +6,7 @@ use super::view_menu::attend;
 use super::{copies, eye_hand, refraction_view, tier_hand, tier_picking};
 use crate::theme::FOUND;
 use brillianteer_cut::Cut;
-use brillianteer_picture::Scoped;
+use brillianteer_picture::{Scoped, contrast_legend};
 use brillianteer_scene::Scope;
 use brillianteer_session::model::{action::ViewAction, audit::finding_facets};
 use brillianteer_session::shows::Shows;
@@ -32,6 +32,8 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     }
     if let Some(overlay) = model.workspace.overlay().filter(|_| shows.takes_overlay()) {
         legend(ui, body, &overlay.legend());
+    } else if shows == Shows::Contrast {
+        legend(ui, body, &contrast_legend());
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
     cx.tools.attention.is_picture_focused |= response.has_focus();

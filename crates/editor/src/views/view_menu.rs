@@ -24,9 +24,8 @@ const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
 
 /// Returns whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
 fn can_copy(cx: &PaneContext) -> bool {
-    let needs_facets = matches!(cx.shows, Shows::Profile | Shows::Diagram);
     let has_facets = cx.model.document.specimen().stone().is_ok();
-    Shows::EXPORTED.contains(&cx.shows) && (!needs_facets || has_facets)
+    Shows::EXPORTED.contains(&cx.shows) && (!cx.shows.needs_facets() || has_facets)
 }
 
 /// Handles input that all views share: a double click shows the view alone or among the others, the right button

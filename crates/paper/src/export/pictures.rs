@@ -22,9 +22,9 @@ const DRAWN_POLYGONS: usize = 100_000;
 
 /// Writes the pictures of a stone.
 pub(super) struct Pictures<'a> {
-    viewing: Viewing<'a>,
-    outputs: &'a Outputs,
-    tell: Reporter<'a>,
+    pub(super) viewing: Viewing<'a>,
+    pub(super) outputs: &'a Outputs,
+    pub(super) tell: Reporter<'a>,
     pub(super) renderer: &'a mut Renderer,
     /// The view of the last picture by beams.
     last: Option<View>,
@@ -51,6 +51,7 @@ impl<'a> Pictures<'a> {
                 (self.tell)(Event::Note(&format!("{name}: left out: {why}")))
             }
             (Picture::Scoped(scoped), _) => self.scoped(name, scoped, watch),
+            (Picture::Contrast, _) => self.contrast(name, watch),
         }
     }
 
@@ -90,7 +91,7 @@ impl<'a> Pictures<'a> {
         let viewing = self.viewing.facing(scoped.side);
         let sheet = ScopeSheet {
             name,
-            suffix: self.viewing.suffix(scoped),
+            suffix: self.viewing.suffix(scoped.side),
             scope: scoped.with_head(viewing.head_deg),
             viewing,
             glare: viewing.glare.unwrap_or_default(),
@@ -101,11 +102,7 @@ impl<'a> Pictures<'a> {
         let mut pace = WorkShares::new(watch, parts + wants(OutputFormat::Exr) + wants(OutputFormat::Svg));
         let rendered = pace.step(parts, |watch| self.pixels(&sheet, &job, watch))?;
         let Some(beams) = rendered.beams() else { return Ok(()) };
-        // The scopes share the beams of a view.
-        if self.last.replace(job.view) != Some(job.view) {
-            let bound = job.quality.beams.unresolved;
-            viewing.warn_of_open((beams.unresolved(), beams.len()), bound, self.tell)?;
-        }
+        self.warn_of_open(&viewing, &job, &beams)?;
         if self.outputs.wants(OutputFormat::Exr) {
             pace.step(1.0, |watch| self.bare(&sheet, &beams, &job.film, watch))?;
         }
@@ -113,6 +110,19 @@ impl<'a> Pictures<'a> {
             pace.step(1.0, |watch| self.drawn(&sheet, &beams, watch))?;
         }
         Ok(())
+    }
+
+    /// Warns once of a view whose beams, which its pictures share, leave too much light unresolved.
+    pub(super) fn warn_of_open(
+        &mut self,
+        viewing: &Viewing,
+        job: &Job,
+        beams: &Beams,
+    ) -> Result<(), Failure> {
+        if self.last.replace(job.view) == Some(job.view) {
+            return Ok(());
+        }
+        viewing.warn_of_open((beams.unresolved(), beams.len()), job.quality.beams.unresolved, self.tell)
     }
 
     /// Returns the readings that are written as pixels.

@@ -4,7 +4,6 @@ use super::viewing::Viewing;
 use super::{OutputFormat, Outputs};
 use crate::{PngFile, rasterize};
 use brillianteer_base::Failure;
-use brillianteer_math::rounded;
 use brillianteer_picture::{Caption, Palette, Rows};
 use brillianteer_render::{Backend, Job, Product, Reading, ScopeProduct};
 use brillianteer_scene::{Glare, Scope};
@@ -91,10 +90,7 @@ impl ScopeSheet<'_> {
 
     /// Returns the text that is stored in a picture's file: the subject of the picture, and its tracer.
     pub fn description(&self, reading: &str, how: &str) -> String {
-        let Viewing { medium, polarised, .. } = &self.viewing;
-        let polarised = if *polarised { "polarised" } else { "unpolarised" };
-        let view = self.viewing.described().description();
-        format!("{}; {view}; index {}, {polarised}; {reading}; {how}", self.title(), medium.index)
+        format!("{}; {reading}; {how}", self.viewing.seen_in_words(self.name))
     }
 
     /// Returns the caption; `how` describes the tracing.
@@ -111,20 +107,12 @@ impl ScopeSheet<'_> {
 
     fn caption_of(&self, reading: Reading, seen: &str, how: &str) -> Caption {
         let ScopeSheet { scope, viewing, .. } = self;
-        let Viewing { medium, polarised, wavelength_nm, specimen, .. } = viewing;
-        let material = &specimen.material;
-        let light = match wavelength_nm {
-            Some(nm) => format!("{} at {nm} nm", material.with_index(medium.index)),
-            None => format!("index {}", rounded(medium.index, 4)),
-        };
-        let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };
-        let polarised = if *polarised { "polarised" } else { "unpolarised" };
         let view = format!("{}: {}; {seen}", scope.name, remark(reading, self.glare));
-        let mut remarks = vec![view, format!("{light}{colour}, {polarised}; {how}{PROGRAM}")];
+        let mut remarks = vec![view, format!("{}; {how}{PROGRAM}", viewing.light_in_words())];
         if reading == Reading::Energy {
             remarks.push("Mixed colours: light from several zones.".to_owned());
         }
-        Caption::new(&specimen.design.name, remarks, scope)
+        Caption::new(&viewing.specimen.design.name, remarks, scope)
     }
 }
 

@@ -2,7 +2,7 @@ use super::*;
 use brillianteer_base::unwatched;
 use brillianteer_cut::MaterialRef;
 use brillianteer_files::{cut_file, library};
-use brillianteer_picture::named;
+use brillianteer_picture::PictureName;
 use brillianteer_render::{Renderer, Wanted};
 use brillianteer_scene::{Glare, Lean, Medium, Projection, Side, Specimen, Viewpoint};
 use std::collections::BTreeMap;
@@ -31,7 +31,10 @@ fn viewing(specimen: &Specimen) -> Viewing<'_> {
 }
 
 fn outputs(folder: &Path, pictures: &[&str], formats: &[OutputFormat]) -> Outputs {
-    let pictures = pictures.iter().map(|&name| (name.to_owned(), named(name).unwrap())).collect();
+    let pictures = pictures
+        .iter()
+        .map(|&name| (name.to_owned(), PictureName::of_key(name).unwrap().picture()))
+        .collect();
     Outputs {
         folder: folder.into(),
         stem: "mine".into(),

@@ -2,6 +2,7 @@
 
 use super::event::{Event, Reporter};
 use brillianteer_base::Failure;
+use brillianteer_math::rounded;
 use brillianteer_picture::Scoped;
 use brillianteer_render::{FiguresProduct, Job, Partial, Product, Quality, Renderer, Unfit, Wanted};
 use brillianteer_scene::{Film, Glare, Medium, Scene, Side, Specimen, Stone, View, Viewpoint};
@@ -57,8 +58,29 @@ impl Viewing<'_> {
 
     /// Returns the part of the names of a picture's files that describes the view, without the side where the picture
     /// has a side of its own.
-    pub(super) fn suffix(&self, scoped: &Scoped) -> String {
-        self.described().facing(scoped.side.map(|_| Side::Table)).suffix()
+    pub(super) fn suffix(&self, own: Option<Side>) -> String {
+        self.described().facing(own.map(|_| Side::Table)).suffix()
+    }
+
+    /// Returns the material or index and the polarisation, in words for captions.
+    pub(super) fn light_in_words(&self) -> String {
+        let material = &self.specimen.material;
+        let light = match self.wavelength_nm {
+            Some(nm) => format!("{} at {nm} nm", material.with_index(self.medium.index)),
+            None => format!("index {}", rounded(self.medium.index, 4)),
+        };
+        let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };
+        format!("{light}{colour}, {}", self.polarisation())
+    }
+
+    /// Returns the stone, the picture's name, the view and the index, in words for the texts in files.
+    pub(super) fn seen_in_words(&self, name: &str) -> String {
+        let (design, view) = (&self.specimen.design.name, self.described().description());
+        format!("{design}: {name}; {view}; index {}, {}", self.medium.index, self.polarisation())
+    }
+
+    fn polarisation(&self) -> &'static str {
+        if self.polarised { "polarised" } else { "unpolarised" }
     }
 
     /// Returns the viewpoint for texts, with the azimuth in the frame of the cut.

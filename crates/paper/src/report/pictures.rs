@@ -11,7 +11,7 @@ use brillianteer_base::Watch;
 use brillianteer_measure::facet_deviations;
 use brillianteer_optics::linear_from_encoded;
 use brillianteer_picture::{
-    Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram, named, profile,
+    Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Scoped, develop, diagram, profile,
 };
 use brillianteer_render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
 use brillianteer_scene::Background;
@@ -35,12 +35,6 @@ const BEHIND: u8 = 0xf2;
 /// The width and the height of the facet diagram on paper, points, at which its names are readable.
 const DIAGRAM: [f64; 2] = [140.0, 262.0];
 
-/// The scopes of every stone: names of pictures, with their titles on paper.
-const SCOPES: [(&str, &str); 2] = [("aset", "ASET"), ("ideal-scope", "Ideal-Scope")];
-
-/// The scopes for round brilliants only.
-const SCOPES_OF_ROUNDS: [(&str, &str); 2] = [("hearts", "Hearts"), ("arrows", "Arrows")];
-
 /// A picture with its title.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NamedDrawing {
@@ -50,13 +44,11 @@ pub(super) struct NamedDrawing {
 
 /// Returns the scopes that suit the cut of a stone, each with its title.
 fn scopes(viewing: &Viewing) -> Vec<(&'static str, Scoped)> {
-    let is_round = viewing.specimen.stone().is_ok_and(|stone| facet_deviations(stone).is_ok());
-    let more = if is_round { SCOPES_OF_ROUNDS.as_slice() } else { &[] };
-    let scoped = |&(name, called): &(&str, &'static str)| match named(name) {
-        Some(Picture::Scoped(scoped)) => Some((called, scoped)),
-        _ => None,
-    };
-    SCOPES.iter().chain(more).filter_map(scoped).collect()
+    let mut scopes = vec![("ASET", Scoped::aset()), ("Ideal-Scope", Scoped::ideal_scope())];
+    if viewing.specimen.stone().is_ok_and(|stone| facet_deviations(stone).is_ok()) {
+        scopes.extend([("Hearts", Scoped::hearts()), ("Arrows", Scoped::arrows())]);
+    }
+    scopes
 }
 
 /// Takes the pictures of a stone, `side` pixels along each side: under light, and in every scope that suits its cut.

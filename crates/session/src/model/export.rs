@@ -11,7 +11,6 @@ use brillianteer_measure::STANDARD_ERROR;
 use brillianteer_optics::line;
 use brillianteer_paper::export::{Export, OutputFormat, Outputs, Viewing};
 use brillianteer_paper::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
-use brillianteer_picture::named;
 use brillianteer_render::{Renderer, Wanted};
 use brillianteer_scene::{
     Companions, Copies, Glare, MetalInstance, Movement, Pose, SceneRing, Side, Specimen, View, Viewpoint,
@@ -147,7 +146,7 @@ impl ExportPlan {
     }
 
     fn outputs(&self, is_part: impl Fn(&Shows) -> bool, formats: Vec<OutputFormat>) -> Outputs {
-        let picture = |shows: &Shows| Some((shows.key().to_owned(), named(shows.key())?));
+        let picture = |shows: &Shows| Some((shows.key().to_owned(), shows.picture()?.picture()));
         Outputs {
             folder: self.folder.clone(),
             stem: self.stem.clone(),
@@ -219,10 +218,10 @@ impl ExportPlan {
         wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
     }
 
-    /// Returns the views that can be exported: drawings need facets.
+    /// Returns the views that can be exported of this stone.
     pub fn can_be_shown(&self) -> impl Iterator<Item = Shows> {
         let has_facets = self.upright.stone().is_ok();
-        Shows::EXPORTED.iter().copied().filter(move |shows| has_facets || shows.is_seen())
+        Shows::EXPORTED.iter().copied().filter(move |shows| has_facets || !shows.needs_facets())
     }
 
     /// Returns the files that will be written, in that order.

@@ -84,7 +84,7 @@ impl Orders<'_> {
         let view = self.model.view(pane);
         let fit = self.model.fit(shows, &view);
         let specimen = self.model.stone(which)?;
-        if shows == Shows::Diagram && specimen.stone().is_err() {
+        if shows.needs_facets() && specimen.stone().is_err() {
             return None;
         }
         let (specimen, copies) = match shows.has_copies() {

@@ -2,12 +2,12 @@
 
 use super::effort::Effort;
 use super::order::{FiguresOrder, Shot};
-use brillianteer_measure::Bounds;
+use brillianteer_measure::{Bounds, MEASURES_HEAD_DEG, PatternSettings};
 use brillianteer_optics::line;
 use brillianteer_picture::{Backdrop, Scoped, filling};
 use brillianteer_render::{
-    FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
-    ScopeProduct, Steps, Surroundings, Wanted,
+    ContrastProduct, FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product,
+    Quality, Reading, ScopeProduct, Steps, Surroundings, Wanted,
 };
 use brillianteer_scene::{
     BackgroundRef, Film, Instance, Mipmap, Panorama, Pattern, Pose, Scene, Scope, View,
@@ -112,6 +112,16 @@ impl Shot {
             readings: vec![if self.strongest { Reading::Strongest } else { Reading::Energy }],
         };
         self.job(Product::Scope(product), scope_quality(effort, rays_per_side))
+    }
+
+    /// Returns the job of a contrast map.
+    pub fn contrast_job(&self, effort: &Effort) -> Job {
+        let product = ContrastProduct {
+            head_deg: self.look.head.unwrap_or(MEASURES_HEAD_DEG),
+            pattern: PatternSettings::usual(self.specimen.unit_mm()),
+            medium: self.specimen.medium(line::SODIUM_D),
+        };
+        self.job(Product::Contrast(product), Quality { samples: None, ..scope_quality(effort, 1) })
     }
 
     /// Returns the job of the refraction map of a shot.

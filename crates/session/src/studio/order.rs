@@ -192,6 +192,10 @@ impl Shot {
                 };
                 Subject::Scope { stone, shows, overlay, sight: (view, film), read }
             }
+            Shows::Contrast => {
+                let read = ScopeReading { strongest: false, glare: None, head: self.look.head };
+                Subject::Scope { stone, shows, overlay, sight: (view, film), read }
+            }
             Shows::Diagram => {
                 Subject::Drawing { stone, size, title: &self.title, paper: self.paper, marks: &self.marks }
             }

@@ -8,10 +8,10 @@ use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
 use super::undeveloped::{Kept, TracedLight};
 use crate::pixels::Pixels;
-use crate::shows::Shows;
+use crate::shows::ShowsKind;
 use brillianteer_base::{Failure, Watch};
 use brillianteer_paper::rasterize_within;
-use brillianteer_picture::{DiagramStyle, Palette, marked_diagram};
+use brillianteer_picture::{DiagramStyle, Palette, Picture, Scoped, marked_diagram};
 use brillianteer_render::{Card, Partial, RenderError, Renderer};
 
 /// Traces pictures, and keeps the data that later pictures can use.
@@ -45,13 +45,16 @@ impl ShotTracer {
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), Failure> {
         let shot = if effort.is_refined() { &*shot.under_whole_light(watch)? } else { shot };
-        match shot.shows {
-            Shows::Profile | Shows::LiquidGlass => Ok(()),
-            Shows::Diagram => drawing(shot).map(each),
-            Shows::Render => self.render((slot, shot), effort, watch, each),
-            Shows::Refraction => self.mapped((slot, shot), effort, watch).map(each),
-            Shows::TracedPane => self.glass(shot, effort, watch).map(each),
-            _ => self.scoped(shot, effort, watch).map(each),
+        match shot.shows.kind() {
+            ShowsKind::Picture(Picture::Profile) | ShowsKind::LiquidGlass => Ok(()),
+            ShowsKind::Picture(Picture::Diagram) => drawing(shot).map(each),
+            ShowsKind::Picture(Picture::Scoped(scoped)) => {
+                self.scoped(shot, &scoped, effort, watch).map(each)
+            }
+            ShowsKind::Picture(Picture::Contrast) => self.contrast(shot, effort, watch).map(each),
+            ShowsKind::Render => self.render((slot, shot), effort, watch, each),
+            ShowsKind::Refraction => self.mapped((slot, shot), effort, watch).map(each),
+            ShowsKind::TracedPane => self.glass(shot, effort, watch).map(each),
         }
     }
 
@@ -74,8 +77,28 @@ impl ShotTracer {
         })
     }
 
-    fn scoped(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, Failure> {
-        let Some(scoped) = shot.shows.scoped() else { return Err(Failure::Input("no scope".into())) };
+    fn contrast(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, Failure> {
+        let job = shot.contrast_job(effort);
+        let film = coarser(&shot.film, effort.grain.coarser);
+        let rendered = self.renderer.run(&job, watch, &mut |_| Ok::<_, Failure>(()))?;
+        let (tracer, taken) = (rendered.backend.kind(), rendered.contrast()?);
+        let mut pixels = vec![];
+        taken.paint(&film, watch, |rows| {
+            pixels.extend_from_slice(rows);
+            Ok::<_, Failure>(())
+        })?;
+        let image = finished(shot, film.size, &pixels, watch)?;
+        let unresolved = Some(taken.map.unresolved);
+        Ok(TakenPicture { image, unresolved, tracer, coarser: 1.0, map: None })
+    }
+
+    fn scoped(
+        &mut self,
+        shot: &Shot,
+        scoped: &Scoped,
+        effort: &Effort,
+        watch: Watch,
+    ) -> Result<TakenPicture, Failure> {
         let scope = scoped.with_head(shot.look.head_of_scopes());
         let palette = Palette::of(&scope);
         let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
@@ -105,17 +128,20 @@ impl ShotTracer {
         let tracer = rendered.backend.kind();
         // The figure stands for the whole light, and not for the part of the area without a strongest exit.
         let unresolved = rendered.beams().map_or(unresolved, |beams| Some(beams.unresolved()));
-        let side = size.map(|n| n as usize);
-        let image = match shot.overlay {
-            None => Pixels::opaque(side, &pixels),
-            Some(_) => {
-                let mut rgba: Vec<u8> = pixels.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
-                overlaid(shot, &mut rgba, size, watch)?;
-                Pixels { size: side, rgba }
-            }
-        };
+        let image = finished(shot, size, &pixels, watch)?;
         Ok(TakenPicture { image, unresolved, tracer, coarser: 1.0, map: None })
     }
+}
+
+/// Returns a picture of these red, green and blue pixels, with the shot's overlay.
+fn finished(shot: &Shot, size: [u32; 2], pixels: &[u8], watch: Watch) -> Result<Pixels, Failure> {
+    let side = size.map(|n| n as usize);
+    if shot.overlay.is_none() {
+        return Ok(Pixels::opaque(side, pixels));
+    }
+    let mut rgba: Vec<u8> = pixels.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
+    overlaid(shot, &mut rgba, size, watch)?;
+    Ok(Pixels { size: side, rgba })
 }
 
 fn drawing(shot: &Shot) -> Result<TakenPicture, Failure> {
@@ -144,10 +170,12 @@ mod tests {
     use crate::model::document::Document;
     use crate::model::eye::Eye;
     use crate::model::framing_fit::FramingFit;
-    use crate::studio::effort::{Grain, Refinement};
+    use crate::shows::Shows;
+    use crate::studio::effort::{FINE, Grain, Refinement};
     use crate::studio::order::{Paper, Which};
     use crate::studio::{ShotLight, survey};
     use brillianteer_base::unwatched;
+    use brillianteer_measure::MEASURES_HEAD_DEG;
     use brillianteer_paper::lighting;
     use brillianteer_picture::{Bloom, Develop, develop, fxaa};
     use brillianteer_render::{Quality, Steps};
@@ -192,6 +220,33 @@ mod tests {
         let mut look = shot.look.clone();
         change(&mut look);
         Shot { look, ..shot }
+    }
+
+    #[test]
+    fn a_contrast_map_depends_on_the_head_and_on_no_light() {
+        let pixels = |shot: &Shot| {
+            let mut taken = None;
+            let slot = (0, Which::Present);
+            let take = &mut |picture: TakenPicture| taken = Some(picture);
+            ShotTracer::default().take((slot, shot), &FINE, &unwatched, take).unwrap();
+            let taken = taken.unwrap();
+            assert!(taken.unresolved.is_some_and(|part| part < 2e-3), "{:?}", taken.unresolved);
+            taken.image.rgba
+        };
+        let usual = shot(Shows::Contrast, None);
+        let seen = pixels(&usual);
+        // With no head of its own a shot has that of the measures.
+        for (head, is_same) in [(MEASURES_HEAD_DEG, true), (25.0, false)] {
+            let other = looking(usual.clone(), |look| look.head = Some(head));
+            assert!(other != usual && (pixels(&other) == seen) == is_same, "{head}");
+        }
+        let lit = looking(usual.clone(), |look| look.exposure = 1.5);
+        assert!(lit == usual && Shot { strongest: true, ..usual.clone() } == usual);
+        // Exact beams trace no eye that is near.
+        let near = shot(Shows::Contrast, Some(8.0));
+        let refused =
+            ShotTracer::default().take(((0, Which::Present), &near), &FINE, &unwatched, &mut |_| ());
+        assert!(matches!(refused, Err(Failure::Usage(_))), "{refused:?}");
     }
 
     #[test]

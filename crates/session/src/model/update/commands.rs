@@ -203,7 +203,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Fit => seen(model, Eye::fit),
         Command::Perspective => {
             let pane = &mut workspace.panes[active];
-            pane.is_near = pane.shows.is_seen() && !pane.is_near;
+            pane.is_near = pane.shows.takes_perspective() && !pane.is_near;
         }
         Command::EyeLeans => {
             let eye = workspace.eye_mut(active);

@@ -1,0 +1,134 @@
+//! The contrast map of a stone as files.
+
+use super::event::{Event, WorkShares};
+use super::pictures::Pictures;
+use super::sheet::{PROGRAM, UNRESOLVED, caption_pixels};
+use super::viewing::{Viewing, note};
+use super::{OutputFormat, write_text};
+use crate::{PngFile, write_exr};
+use brillianteer_base::{Failure, Watch};
+use brillianteer_measure::PatternSettings;
+use brillianteer_picture::{Caption, contrast_legend, vector};
+use brillianteer_render::{ContrastProduct, Job, Product, Renderer, TakenContrast, Unfit};
+use brillianteer_scene::Film;
+use std::path::Path;
+
+impl Viewing<'_> {
+    /// Returns the job of the contrast map of this stone.
+    fn contrast_job(&self) -> Job {
+        let product = ContrastProduct {
+            head_deg: self.head_of_measures(),
+            pattern: PatternSettings::usual(self.specimen.unit_mm()),
+            medium: self.medium,
+        };
+        self.job(Film::NONE, Product::Contrast(product), UNRESOLVED)
+    }
+
+    /// Returns the reason why the stone has no contrast map in this view; `None` where it has one.
+    pub fn why_no_contrast(&self, renderer: &Renderer) -> Option<Unfit> {
+        renderer.plan(&self.contrast_job()).err()
+    }
+}
+
+/// A contrast map that is written.
+struct ContrastSheet<'a> {
+    name: &'a str,
+    viewing: Viewing<'a>,
+    taken: &'a TakenContrast,
+}
+
+impl ContrastSheet<'_> {
+    /// Returns the contrast of the whole face, in words.
+    fn whole(&self) -> String {
+        let whole = self.taken.map.whole;
+        if whole.most.is_finite() {
+            format!("contrast of the face {:.3} ± {:.3}", whole.middle(), whole.error())
+        } else {
+            "contrast of the face unknown: all of it may be dark".to_owned()
+        }
+    }
+
+    /// Returns the eye, the head and the stone's size, in words.
+    fn eye(&self) -> String {
+        let (unit_mm, head) = (self.viewing.specimen.unit_mm(), self.viewing.head_of_measures());
+        let (side, diameter) = (self.taken.map.side * unit_mm, 2.0 * unit_mm);
+        format!("squares of {side:.3} mm on {diameter:.2} mm, even dome, head {head}°")
+    }
+
+    fn description(&self) -> String {
+        let unresolved = self.taken.map.unresolved;
+        let seen = self.viewing.seen_in_words(self.name);
+        format!("{seen}; {}; {}; exact beams, unresolved {unresolved:.2e}", self.eye(), self.whole())
+    }
+
+    fn caption(&self) -> Caption {
+        let percent = 100.0 * self.taken.map.unresolved;
+        let remarks = vec![
+            format!(
+                "contrast that an eye resolves, {}; {}",
+                self.eye(),
+                self.viewing.described().description()
+            ),
+            self.whole(),
+            format!(
+                "{}; exact beams, {percent:.2} % of the light unresolved; {PROGRAM}",
+                self.viewing.light_in_words()
+            ),
+        ];
+        Caption::with_legend(&self.viewing.specimen.design.name, remarks, contrast_legend())
+    }
+}
+
+impl Pictures<'_> {
+    /// Writes the files of the contrast map.
+    pub(super) fn contrast(&mut self, name: &str, watch: Watch) -> Result<(), Failure> {
+        let (viewing, outputs, tell) = (self.viewing, self.outputs, self.tell);
+        if let Some(why) = viewing.why_no_contrast(self.renderer) {
+            return tell(Event::Note(&format!("{name}: left out: {why}")));
+        }
+        let mut pace = WorkShares::new(watch, 2.0);
+        let job = viewing.contrast_job();
+        let taken = pace.step(1.0, |watch| {
+            Ok(self.renderer.run(&job, watch, &mut |part| note(&part, tell))?.contrast()?)
+        })?;
+        self.warn_of_open(&viewing, &job, &taken.beams)?;
+        let sheet = ContrastSheet { name, viewing, taken: &taken };
+        let path = |format| outputs.path(&viewing.suffix(None), name, format);
+        pace.step(1.0, |watch| {
+            if outputs.wants(OutputFormat::Png) {
+                let path = path(OutputFormat::Png);
+                self.contrast_pixels(&sheet, &path, watch)?;
+                tell(Event::Written(&path))?;
+            }
+            if outputs.wants(OutputFormat::Exr) {
+                let path = path(OutputFormat::Exr);
+                write_exr(&path, &taken.values(), &viewing.film(outputs.size), &sheet.description(), watch)?;
+                tell(Event::Written(&path))?;
+            }
+            if outputs.wants(OutputFormat::Svg) {
+                let parts = taken.map.parts().map(|(outline, contrast)| (outline, contrast.known));
+                let words = (sheet.description(), sheet.whole());
+                let drawn = vector::contrast(viewing.stone()?, &taken.beams, parts, (&words.0, &words.1));
+                let drawn = match outputs.caption {
+                    true => sheet.caption().under(drawn, f64::from(vector::SIDE)),
+                    false => drawn,
+                };
+                write_text(&path(OutputFormat::Svg), &drawn.to_string(), tell)?;
+            }
+            Ok(())
+        })
+    }
+
+    fn contrast_pixels(&self, sheet: &ContrastSheet, path: &Path, watch: Watch) -> Result<(), Failure> {
+        let film = sheet.viewing.film(self.outputs.size);
+        let [width, height] = film.size;
+        let (below, caption) = match self.outputs.caption {
+            true => caption_pixels(&sheet.caption(), width)?,
+            false => (0, vec![]),
+        };
+        let mut file = PngFile::begin(path, (width, height + below), &sheet.description())?;
+        sheet.taken.paint(&film, watch, |pixels| file.push(pixels).map_err(Failure::from))?;
+        file.push(&caption)?;
+        Ok(file.finish()?)
+    }
+}
