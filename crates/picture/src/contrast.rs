@@ -28,14 +28,14 @@ pub(super) fn contrast_colour(contrast: f64) -> [u8; 3] {
     code(contrast).map(|c| c.round() as u8)
 }
 
-/// Returns what the colours of contrast maps mean, from the brightest.
+/// Returns what the colours of contrast maps mean, from the brightest, in few letters: a view has room for a line of them.
 pub fn contrast_legend() -> Vec<(String, [u8; 3])> {
     let text = |contrast: f64| match contrast {
         -1.0 => "dark".to_owned(),
-        -0.5 => "half as bright as the face".to_owned(),
-        0.0 => "as bright as the face".to_owned(),
-        0.5 => "half again as bright".to_owned(),
-        _ => "twice as bright or more".to_owned(),
+        -0.5 => "−50 %".to_owned(),
+        0.0 => "as the face".to_owned(),
+        0.5 => "+50 %".to_owned(),
+        _ => "+100 % or more".to_owned(),
     };
     STOPS.iter().rev().map(|&(contrast, colour)| (text(contrast), colour)).collect()
 }
@@ -66,11 +66,7 @@ mod tests {
         assert_eq!((contrast_colour(-7.0), contrast_colour(7.0)), (STOPS[0].1, STOPS[4].1));
         let legend = contrast_legend();
         assert_eq!(legend.len(), STOPS.len());
-        assert!(
-            legend
-                .iter()
-                .any(|(text, colour)| text == "as bright as the face" && *colour == contrast_colour(0.0))
-        );
+        assert!(legend.iter().any(|(text, colour)| text == "as the face" && *colour == contrast_colour(0.0)));
     }
 
     #[test]

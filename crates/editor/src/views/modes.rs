@@ -74,7 +74,8 @@ impl Mode {
     fn of_settings(model: &Model, shows: Shows) -> impl Iterator<Item = Self> {
         let settings = &model.document.work.settings;
         let head = settings.look.head_of_scopes();
-        let takes_head = shows_light(shows) || shows.scoped().is_some_and(|scope| scope.takes_head);
+        let scope_takes_head = shows.scoped().is_some_and(|scope| scope.takes_head);
+        let takes_head = shows_light(shows) || scope_takes_head || shows == Shows::Contrast;
         let shows_background = shows_light(shows);
         let strength = if shows_background { settings.strength() } else { 1.0 };
         let bounces = if shows == Shows::Render { settings.look.bounces } else { USUAL_BOUNCES };

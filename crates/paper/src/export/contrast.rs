@@ -65,7 +65,7 @@ impl ContrastSheet<'_> {
         let percent = 100.0 * self.taken.map.unresolved;
         let remarks = vec![
             format!(
-                "contrast that an eye resolves, {}; {}",
+                "brightness that an eye resolves, beside that of the whole face: {}; {}",
                 self.eye(),
                 self.viewing.described().description()
             ),
