@@ -1,4 +1,5 @@
-// The colour that a camera sees of stones and metal under light, one band of wavelengths after the other.
+// The colour that a camera sees of stones and metal under light, one band of wavelengths after the other. `Chances` and
+// all functions of metal are in metal.wgsl, or in no_metal.wgsl where there is none.
 //
 // Imports: Response, RadiancePixel, environment, trace, pose, camera, tiles.
 

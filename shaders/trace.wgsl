@@ -1,7 +1,7 @@
 // One chain of bounces, the twin of crates/trace/src/ray.rs. Light that leaves the stone goes to `depart` and from
-// there to `leave`, which scope.wgsl or light.wgsl defines. The functions `entry`, `next_facet` and `facet_normal`
-// describe the surface. Everything here is in the frame of the body, whose unit lengths and absorption have;
-// pose.wgsl converts to it and back.
+// there to `leave`, which scope.wgsl or light.wgsl defines. The functions `entry`, `next_facet`, `facet_normal`,
+// `turned_normal` and `polished`, and the constant `IS_CURVED`, describe the surface. Everything here is in the frame of
+// the body, whose unit lengths and absorption have; pose.wgsl converts to it and back.
 //
 // Imports: Body, Medium, ray, optics, basis.
 
