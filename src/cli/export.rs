@@ -119,9 +119,10 @@ impl ExportArguments {
 
     fn pictures(&self) -> Result<Vec<(String, Picture)>, Failure> {
         let all = self.views.is_empty() && self.scope.is_empty();
-        let names: Vec<PictureName> = match all {
-            true => PictureName::ALL.to_vec(),
-            false => self.views.iter().filter_map(|view| PictureName::of_key(view)).collect(),
+        let names: Vec<PictureName> = if all {
+            PictureName::ALL.to_vec()
+        } else {
+            self.views.iter().filter_map(|view| PictureName::of_key(view)).collect()
         };
         let mut pictures: Vec<(String, Picture)> =
             names.into_iter().map(|name| (name.key().to_owned(), name.picture())).collect();

@@ -42,14 +42,16 @@ pub struct GradientArguments {
 impl GradientArguments {
     pub fn run(&self) -> Result<(), Failure> {
         self.taking.check()?;
-        let measures = match self.measures.is_empty() {
-            true => USUAL.iter().filter_map(|name| name.parse().ok()).collect(),
-            false => self.measures.clone(),
+        let measures = if self.measures.is_empty() {
+            USUAL.iter().filter_map(|name| name.parse().ok()).collect()
+        } else {
+            self.measures.clone()
         };
         let sweep = self.taking.sweep(&self.file, vec![], &measures)?;
-        let keys = match self.by.is_empty() {
-            true => all_keys(&sweep.design.cut),
-            false => self.by.iter().map(|name| SweepKey::of(name)).collect(),
+        let keys = if self.by.is_empty() {
+            all_keys(&sweep.design.cut)
+        } else {
+            self.by.iter().map(|name| SweepKey::of(name)).collect()
         };
         let file = self.file.display().to_string();
         if !self.by.is_empty() {

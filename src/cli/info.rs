@@ -44,10 +44,11 @@ pub struct Info {
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
-        each_file(&self.files, self.json, |file| match is_scene(file) {
-            true => self.scene(file),
-            false => self.stone(file),
-        })
+        each_file(
+            &self.files,
+            self.json,
+            |file| if is_scene(file) { self.scene(file) } else { self.stone(file) },
+        )
     }
 
     fn scene(&self, file: &Path) -> Result<(), Failure> {
@@ -318,9 +319,10 @@ fn proportions(report: &ProportionReport, is_given: impl Fn(&str) -> bool, lines
     // Its name differs from that of the design's own number, which may be below 1, or along the axis.
     lines.pair("outline length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
-    let table = match report.table_corners > 0.0 {
-        true => format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),
-        false => "none".to_owned(),
+    let table = if report.table_corners > 0.0 {
+        format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners)
+    } else {
+        "none".to_owned()
     };
     lines.pair(&measured("table", is_given), table);
 }

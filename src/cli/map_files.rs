@@ -47,9 +47,10 @@ pub struct MapFiles<'a> {
 
 /// Returns an error where `--out` is standard output.
 pub fn folder(out: &Path) -> Result<(), Failure> {
-    match is_standard(out) {
-        true => Err(Failure::Usage("--out -: several files are written; give a folder".into())),
-        false => Ok(()),
+    if is_standard(out) {
+        Err(Failure::Usage("--out -: several files are written; give a folder".into()))
+    } else {
+        Ok(())
     }
 }
 

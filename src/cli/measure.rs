@@ -224,10 +224,7 @@ struct FoundSpread<'a> {
 
 /// Formats deviations as a table, in degrees.
 fn table_of_deviations(specimen: &LoadedSpecimen, classes: &[ClassDeviations<ErringDeviation>]) -> String {
-    let (errors, wide) = match specimen.errors.is_empty() {
-        true => ("", 24),
-        false => (" ± its standard error", 34),
-    };
+    let (errors, wide) = if specimen.errors.is_empty() { ("", 24) } else { (" ± its standard error", 34) };
     let mut table = Table::headed([
         Column::left("class", 12),
         Column::right("azimuth", 9).digits(3),
@@ -235,9 +232,10 @@ fn table_of_deviations(specimen: &LoadedSpecimen, classes: &[ClassDeviations<Err
         Column::right("slope", 9).digits(3),
         Column::right("worst", wide),
     ]);
-    let worst = |of: &ErringDeviation, spread: f64| match spread < NOT_SHOWN_DEG {
-        true => "-".to_owned(),
-        false => {
+    let worst = |of: &ErringDeviation, spread: f64| {
+        if spread < NOT_SHOWN_DEG {
+            "-".to_owned()
+        } else {
             let error = of.error_deg.map_or(String::new(), |error| format!(" ± {error:.3}"));
             format!("{} {}{error}", of.deviation.facet, signed(of.deviation.by_deg, 3))
         }
@@ -376,9 +374,10 @@ fn sums(report: &FigureReport, text: &mut String) {
     let f = &measured.figures;
     let of = percent;
     let (returned, glare) = (measured.light_return(), measured.glare_return());
-    let glare = match viewing.glare != Some(Glare::LeftOut) {
-        true => format!("with glare {:.3} %", 100.0 * (returned + glare)),
-        false => format!("glare of {:.3} % is left out", 100.0 * measured.glare()),
+    let glare = if viewing.glare != Some(Glare::LeftOut) {
+        format!("with glare {:.3} %", 100.0 * (returned + glare))
+    } else {
+        format!("glare of {:.3} % is left out", 100.0 * measured.glare())
     };
     let error = measured.light_return_error();
     let error = error.map_or(String::new(), |error| format!(" ± {} % (standard error)", of(error)));

@@ -26,7 +26,6 @@ mod measure;
 mod measure_taking;
 mod meets;
 mod mesh_options;
-mod names;
 mod optimise;
 mod optimise_text;
 mod options;
@@ -58,7 +57,7 @@ mod without_window;
 use brillianteer_base::Failure;
 use brillianteer_files::built_design::hint;
 use brillianteer_files::mesh_options::MeshOptions;
-use brillianteer_files::{is_standard, report_made_folders};
+use brillianteer_files::{is_standard, library, report_made_folders};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::say;
@@ -239,11 +238,13 @@ fn edit(
     mesh: MeshOptions,
     is_named: bool,
 ) -> Result<(), Failure> {
-    if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !names::is_known(f)) {
-        let why = match () {
-            () if file.is_dir() => "this is a directory; a file is expected".to_owned(),
-            () if is_standard(file) => "the editor reads no standard input; give a file".to_owned(),
-            () => format!("there is no such file{}", hint(file)),
+    if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !library::contains(&f.to_string_lossy())) {
+        let why = if file.is_dir() {
+            "this is a directory; a file is expected".to_owned()
+        } else if is_standard(file) {
+            "the editor reads no standard input; give a file".to_owned()
+        } else {
+            format!("there is no such file{}", hint(file))
         };
         return Err(Failure::Input(format!("{}: {why}", file.display())));
     }
@@ -323,7 +324,7 @@ fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
         && (Path::new(first).components().count() > 1
             || Path::new(first).extension().is_some()
             || Path::new(first).exists()
-            || names::is_known(Path::new(first)))
+            || library::contains(&first.to_string_lossy()))
         && !first.to_string_lossy().starts_with('-')
     {
         arguments.insert(1, "edit".into());

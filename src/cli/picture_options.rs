@@ -172,7 +172,9 @@ impl PictureOptions {
             }
             look.background_mm = Some(radii * unit_mm);
         }
-        self.light.iter().for_each(|light| look.light.clone_from(light));
+        if let Some(light) = &self.light {
+            look.light.clone_from(light);
+        }
         look.light_upright |= self.upright;
         look.tone = self.tone.unwrap_or(look.tone);
         look.smoothing = finish.smoothing;

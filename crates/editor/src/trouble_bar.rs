@@ -25,9 +25,10 @@ pub fn show(model: &Model, actions: &mut Actions, ctx: &Context, stage: Rect) {
         frame.show(ui, |ui| {
             ui.set_width(stage.width() - 14.0);
             ui.set_max_height(stage.height());
-            match notes.is_open {
-                true => list(notes, actions, ui, stage.height() * MOST_OF_HEIGHT),
-                false => last(notes, actions, ui),
+            if notes.is_open {
+                list(notes, actions, ui, stage.height() * MOST_OF_HEIGHT)
+            } else {
+                last(notes, actions, ui)
             }
         });
     });

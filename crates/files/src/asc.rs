@@ -357,9 +357,12 @@ fn word(text: &str) -> (&str, &str) {
 fn record_of(line: &str) -> (&str, &str) {
     let (first, rest) = word(line);
     let glued = first.strip_prefix(['g', 'G', 'y', 'Y', 'I', 'i', 'a', 'A']);
-    let number = glued.map(|glued| match first.starts_with(['y', 'Y']) {
-        true => glued.trim_end_matches(['y', 'Y', 'n', 'N', ',', ';']),
-        false => glued,
+    let number = glued.map(|glued| {
+        if first.starts_with(['y', 'Y']) {
+            glued.trim_end_matches(['y', 'Y', 'n', 'N', ',', ';'])
+        } else {
+            glued
+        }
     });
     let is_glued = number.is_some_and(|number| Token::of(number).is_numeric());
     if is_glued { line.split_at(1) } else { (first, rest.trim_start()) }

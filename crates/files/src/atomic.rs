@@ -279,9 +279,10 @@ impl Temporary {
 /// Refuses a folder that is write-protected, also for the superuser, whom the system does not hinder.
 #[cfg(unix)]
 fn allowed(folder: &Path) -> io::Result<()> {
-    match folder.metadata()?.permissions().readonly() {
-        true => Err(io::ErrorKind::PermissionDenied.into()),
-        false => Ok(()),
+    if folder.metadata()?.permissions().readonly() {
+        Err(io::ErrorKind::PermissionDenied.into())
+    } else {
+        Ok(())
     }
 }
 

@@ -111,9 +111,10 @@ impl BuiltDesign {
 
 /// Returns whether a path means a scene: a scene file, or the name of a scene that comes with the program.
 pub fn is_scene(file: &Path) -> bool {
-    match file.is_file() || is_standard(file) {
-        true => scene_file::is_scene(file),
-        false => library::scene(&file.to_string_lossy()).is_some(),
+    if file.is_file() || is_standard(file) {
+        scene_file::is_scene(file)
+    } else {
+        library::scene(&file.to_string_lossy()).is_some()
     }
 }
 

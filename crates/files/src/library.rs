@@ -67,3 +67,8 @@ pub const SCENES: [(&str, &str); 12] = [
 pub fn scene(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
 }
+
+/// Returns whether a cut or a scene of this name comes with the program.
+pub fn contains(name: &str) -> bool {
+    cut(name).is_some() || scene(name).is_some()
+}

@@ -198,9 +198,8 @@ impl Sampler<'_> {
         // Where no ray has hit, the next one might have.
         let one_ray = |whole: f64| (whole / (2.0 * n)).powi(2);
         let [of_light, of_area] = self.tail.most_of_a_ray().map(one_ray);
-        let covariance = |k: usize| match k.is_multiple_of(bands + 1) {
-            true => of_products(k).max(of_light),
-            false => of_products(k),
+        let covariance = |k: usize| {
+            if k.is_multiple_of(bands + 1) { of_products(k).max(of_light) } else { of_products(k) }
         };
         let areas = bands * bands..bands * bands + bands;
         Estimate {

@@ -73,13 +73,14 @@ impl EyeGrid {
         }
         let least = EMPTY * grid.side * grid.side;
         for cell in &mut grid.cells {
-            *cell = match cell.area > least {
-                false => EyeCell::default(),
-                true => EyeCell {
+            *cell = if cell.area > least {
+                EyeCell {
                     area: cell.area / beams.silhouette_area,
                     light: cell.light / cell.area,
                     rest: cell.rest / cell.area,
-                },
+                }
+            } else {
+                EyeCell::default()
             };
         }
         Ok(grid)

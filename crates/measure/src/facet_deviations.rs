@@ -186,9 +186,8 @@ impl FacetClasses {
     pub fn of(stone: &Stone) -> Result<Self, NotEightfold> {
         let zones = FacetZones::of(&stone.polytope);
         let ((table, crown), (_, pavilion)) = (side(stone, &zones, true), side(stone, &zones, false));
-        let counted = |part, between, found: usize, wanted| match found == wanted {
-            true => Ok(()),
-            false => Err(NotEightfold::Facets { part, between, found, wanted }),
+        let counted = |part, between, found: usize, wanted| {
+            if found == wanted { Ok(()) } else { Err(NotEightfold::Facets { part, between, found, wanted }) }
         };
         counted("crown", "girdle and table", crown.len(), 4 * OCTANTS)?;
         counted("pavilion", "girdle and culet", pavilion.len(), 3 * OCTANTS)?;

@@ -191,9 +191,10 @@ impl LightMeasures {
         let error = |name: MeasureName| Some((name, name.of(self)?.error()));
         let widest = names.into_iter().filter_map(error).max_by(|a, b| a.1.total_cmp(&b.1));
         let widest = widest.map_or(String::new(), |(name, error)| {
-            let error = match error.is_finite() {
-                true => format!("± {:.3} %", 100.0 * error),
-                false => "without an upper end".to_owned(),
+            let error = if error.is_finite() {
+                format!("± {:.3} %", 100.0 * error)
+            } else {
+                "without an upper end".to_owned()
             };
             format!("; the widest interval is that of {name}, {error}")
         });

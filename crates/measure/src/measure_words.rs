@@ -101,9 +101,10 @@ pub fn meaning(measure: MeasureName) -> &'static str {
 /// Writes a value with the interval in which it certainly lies.
 pub fn value(found: Interval) -> String {
     let [least, most] = [found.least, found.most].map(|part| 100.0 * part);
-    match most.is_finite() {
-        true => format!("{:.2} % (certainly {least:.2} to {most:.2} %)", 100.0 * found.middle()),
-        false => format!("at least {least:.2} %"),
+    if most.is_finite() {
+        format!("{:.2} % (certainly {least:.2} to {most:.2} %)", 100.0 * found.middle())
+    } else {
+        format!("at least {least:.2} %")
     }
 }
 

@@ -200,9 +200,10 @@ mod tests {
         for seed in 0..count {
             let found = scattered(0.001, arriving, eta, seed).unwrap();
             reflected += u32::from(!found.passes);
-            let expected = match found.passes {
-                true => refract(arriving, DVec3::Z, eta, (0.8, cos_t)),
-                false => DVec3::new(0.6, 0.0, 0.8),
+            let expected = if found.passes {
+                refract(arriving, DVec3::Z, eta, (0.8, cos_t))
+            } else {
+                DVec3::new(0.6, 0.0, 0.8)
             };
             off += found.direction.distance(expected) / count as f64;
         }

@@ -141,9 +141,8 @@ impl Finish<'_> {
         let opaque = light.is_covered() || self.develop.background != Background::Transparent;
         let colour = if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba };
         let mut png = PngFile::of_colour(path, (width, height), colour, description)?;
-        self.rows(light, watch, &mut |rgba| match opaque {
-            true => png.push(&without_cover(rgba)),
-            false => png.push(rgba),
+        self.rows(light, watch, &mut |rgba| {
+            if opaque { png.push(&without_cover(rgba)) } else { png.push(rgba) }
         })?;
         png.finish()
     }

@@ -38,9 +38,10 @@ impl StoredLight {
     /// Fails where the file system refuses a temporary file.
     pub fn new(size: [u32; 2]) -> Result<Self, WriteError> {
         let pixels = size.map(u64::from).into_iter().product::<u64>();
-        let store = match pixels > MOST_HELD {
-            true => Store::File(tempfile::tempfile().map_err(|e| full(size, e))?),
-            false => Store::Memory(Vec::with_capacity(pixels as usize)),
+        let store = if pixels > MOST_HELD {
+            Store::File(tempfile::tempfile().map_err(|e| full(size, e))?)
+        } else {
+            Store::Memory(Vec::with_capacity(pixels as usize))
         };
         Ok(Self { size, rows: 0, is_covered: true, store })
     }

@@ -316,9 +316,10 @@ impl ByBeams<'_> {
 
 impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
     fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E> {
-        match self.is_apart {
-            true => Ok(self.add_apart(pass, watch)?),
-            false => Ok(self.add_shared(std::slice::from_ref(pass), watch)?),
+        if self.is_apart {
+            Ok(self.add_apart(pass, watch)?)
+        } else {
+            Ok(self.add_shared(std::slice::from_ref(pass), watch)?)
         }
     }
 

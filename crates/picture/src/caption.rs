@@ -87,10 +87,8 @@ impl Caption {
             texts = texts.add(line(sheet.remark, [left, y + step / 2.0], &remark));
             y += step;
         }
-        let (fields, texts, below) = match self.zones.is_empty() {
-            true => (Group::new(), texts, y),
-            false => self.legend(&sheet, y, texts),
-        };
+        let (fields, texts, below) =
+            if self.zones.is_empty() { (Group::new(), texts, y) } else { self.legend(&sheet, y, texts) };
         let height = (below + top).ceil();
         let paper = Rectangle::new().set("width", width).set("height", height).set("fill", "#ffffff");
         (Group::new().set("class", "caption").add(paper).add(fields).add(texts), height)

@@ -266,9 +266,10 @@ impl View {
     /// out the last column.
     fn line(&self, sheet: &mut Sheet, y: f64, kinds: [Type; 5], cells: &[String]) {
         let half_room = self.style.half_room();
-        let columns = match self.style.is_sheet {
-            true => vec![-half_room, -half_room + 26.0, 64.0, 134.0, half_room],
-            false => vec![-half_room, -half_room + 22.0, half_room - 50.0, half_room],
+        let columns = if self.style.is_sheet {
+            vec![-half_room, -half_room + 26.0, 64.0, 134.0, half_room]
+        } else {
+            vec![-half_room, -half_room + 22.0, half_room - 50.0, half_room]
         };
         let shown = cells.iter().take(columns.len()).enumerate();
         for (k, cell) in shown.filter(|(_, cell)| !cell.is_empty()) {

@@ -200,9 +200,10 @@ impl<'a> Page<'a> {
             .add(Title::new(title))
             .add(Description::new().add(svg::node::Text::new(description)))
             .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", backing));
-        let frame = match self.copies.is_empty() {
-            true => frame,
-            false => frame.set("xmlns:xlink", "http://www.w3.org/1999/xlink").add(self.copies()),
+        let frame = if self.copies.is_empty() {
+            frame
+        } else {
+            frame.set("xmlns:xlink", "http://www.w3.org/1999/xlink").add(self.copies())
         };
         groups.into_iter().fold(frame, Document::add)
     }

@@ -298,9 +298,10 @@ impl LightProduct {
     pub fn strata(&self, passes: u32) -> Strata {
         let spectrum = &self.surroundings.lighting.light.spectrum;
         let shares = if matches!(self.steps, Steps::Glance { .. }) { 1 } else { passes };
-        match self.jitter {
-            true => Strata::new(self.wavelengths, shares, spectrum, self.adapted),
-            false => Strata::of_middles(self.wavelengths, spectrum, self.adapted),
+        if self.jitter {
+            Strata::new(self.wavelengths, shares, spectrum, self.adapted)
+        } else {
+            Strata::of_middles(self.wavelengths, spectrum, self.adapted)
         }
     }
 }

@@ -14,12 +14,15 @@ use brillianteer_trace::beam::{self, BeamOptions, Beams, SumOptions};
 use glam::DVec2;
 use std::sync::Arc;
 
-/// The parts of the memory of beams of which one belongs to each rocked view. There are twelve, so that a view may take as
-/// many beams only if all together take a bearable time.
+/// Each rocked view may fill one part in this many of the memory of beams. Views are traced one after the other, so that this
+/// bounds the time of all twelve.
 const ROCKED_PARTS: usize = 8;
 
 /// The part of the time of a view's measures that tracing its beams takes, roughly.
 const BEAMS_SHARE: f64 = 0.6;
+
+/// The part of the time that the view itself takes where the stone rocks, roughly.
+const OWN_SHARE: f64 = 0.2;
 
 impl Renderer {
     /// Traces a picture in a scope, and hands out its rows.
@@ -91,7 +94,7 @@ impl Renderer {
         let MeasuresProduct { settings, medium, derivatives } = product;
         let (body, polytope) = job.convex()?;
         let rocking = settings.pattern.and_then(|pattern| Some((pattern, pattern.rock_deg?)));
-        let own = |done: f64| watch(if rocking.is_some() { 0.2 * done } else { done });
+        let own = |done: f64| watch(if rocking.is_some() { OWN_SHARE * done } else { done });
         let share = |done: f64| own(BEAMS_SHARE * done);
         // Derivatives take four times the memory of the beams and more, and each rocked view's beams stand beside these.
         let parts = 1 + 4 * usize::from(!derivatives.is_empty()) + usize::from(rocking.is_some());
@@ -106,11 +109,11 @@ impl Renderer {
             .collect::<Result<Vec<_>, _>>()?;
         let mut measures = LightMeasures::of(&beams, polytope, settings, &after(derivatives.len()))?;
         if let Some((pattern, rock_deg)) = rocking {
-            let rest = |done: f64| watch(0.2 + 0.8 * done);
+            let rocking_share = |done: f64| watch(OWN_SHARE + (1.0 - OWN_SHARE) * done);
             let mut is_cut_short = false;
-            let rocked = job.rocked(polytope, *medium, rock_deg, &rest);
+            let rocked = job.rocked(polytope, *medium, rock_deg, &rocking_share);
             let rocked = rocked.inspect(|beams| is_cut_short |= beams.as_ref().is_ok_and(|b| b.is_cut_short));
-            let found = Scintillation::of(&beams, rocked, settings.head_deg, &pattern, &rest)?;
+            let found = Scintillation::of(&beams, rocked, settings.head_deg, &pattern, &rocking_share)?;
             measures.is_cut_short |= is_cut_short;
             measures.scintillation = Some(found);
         }
@@ -133,11 +136,11 @@ impl Renderer {
                 let (body, polytope) = job.convex()?;
                 let Quality { standard_error, beams: options, .. } = &job.quality;
                 // The beams may exist already, made for pictures.
-                let made = match standard_error {
+                let kept = match standard_error {
                     None => self.beams.kept(body, *medium, view, options),
                     Some(_) => None,
                 };
-                match made {
+                match kept {
                     Some(beams) => Ok(brillianteer_measure::by_beams(&beams, scope)),
                     None => Ok(job.summed(polytope, *medium, scope, watch)?),
                 }
@@ -203,6 +206,9 @@ impl Job {
     }
 
     /// Returns the body that exact beams trace, with its polytope.
+    ///
+    /// # Errors
+    /// Fails where the scene has no stone, or one that is not convex.
     pub(super) fn convex(&self) -> Result<(&Arc<Body>, &Polytope), RenderError> {
         let stone = self.scene.instances.first().ok_or(Unfit::NoStone)?;
         let polytope = &stone.body.stone().map_err(Unfit::from)?.polytope;

@@ -50,9 +50,10 @@ impl Surroundings {
         let rest = view.light_basis();
         // Worlds are drawn upright: their vertical axis is y.
         let is_world = self.lighting.light.world.is_some();
-        let rest = match self.is_upright && !is_world {
-            true => Basis { right: -rest.toward, up: -rest.right, toward: rest.up },
-            false => rest,
+        let rest = if self.is_upright && !is_world {
+            Basis { right: -rest.toward, up: -rest.right, toward: rest.up }
+        } else {
+            rest
         };
         let turned = |x: DVec3| rest.right * x.x + rest.up * x.y + rest.toward * x.z;
         if is_world {

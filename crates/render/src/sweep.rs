@@ -453,9 +453,10 @@ fn set_proportion(cut: &mut Cut, key: &str, value: f64) -> Result<(), SweepError
     let Some(row) = cut.proportion(key).filter(|row| row.can_be_set()) else {
         let keys: Vec<&str> =
             cut.family().into_iter().flat_map(|f| f.settable()).map(|row| row.key).collect();
-        let known = match keys.is_empty() {
-            true => "it is not shaped by proportions: vary its tiers, as in tier:P1".to_owned(),
-            false => format!("it has {}", keys.join(", ")),
+        let known = if keys.is_empty() {
+            "it is not shaped by proportions: vary its tiers, as in tier:P1".to_owned()
+        } else {
+            format!("it has {}", keys.join(", "))
         };
         return Err(SweepError::NoProportion { key: key.to_owned(), known });
     };
@@ -470,9 +471,10 @@ fn tier_of(cut: &Cut, key: &SweepKey, name: &str) -> Result<(usize, MachineSetti
         return Ok((place, settings[place].clone()));
     }
     let names: Vec<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
-    let known = match names.is_empty() {
-        true => "it has no tiers: vary its proportions".to_owned(),
-        false => format!("it has {}", names.join(", ")),
+    let known = if names.is_empty() {
+        "it has no tiers: vary its proportions".to_owned()
+    } else {
+        format!("it has {}", names.join(", "))
     };
     Err(SweepError::NoTier { key: key.to_string(), known })
 }

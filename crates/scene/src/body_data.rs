@@ -47,9 +47,10 @@ impl From<Body> for BodyData {
             Body::Stone(stone) => Self::Stone {
                 planes: stone.polytope.facets().iter().map(|facet| facet.plane).collect(),
                 names: stone.names().to_vec(),
-                frosting: match stone.polytope.is_frosted() {
-                    true => stone.polytope.facets().iter().map(|facet| facet.frosting).collect(),
-                    false => vec![],
+                frosting: if stone.polytope.is_frosted() {
+                    stone.polytope.facets().iter().map(|facet| facet.frosting).collect()
+                } else {
+                    vec![]
                 },
             },
             Body::Mesh(mesh) => Self::Mesh(mesh.surface().clone()),
@@ -74,9 +75,10 @@ impl TryFrom<BodyData> for Body {
                 Err(BodyDataError::Frosting { planes: planes.len() })
             }
             BodyData::Stone { planes, names, frosting } => {
-                let stone = match names.is_empty() {
-                    true => Polytope::from_planes(&planes).map(Stone::nameless),
-                    false => Stone::new(&names.into_iter().zip(planes).collect::<Vec<(String, Plane)>>()),
+                let stone = if names.is_empty() {
+                    Polytope::from_planes(&planes).map(Stone::nameless)
+                } else {
+                    Stone::new(&names.into_iter().zip(planes).collect::<Vec<(String, Plane)>>())
                 };
                 let of_plane = |plane: usize| frosting.get(plane).copied().unwrap_or(0.0);
                 stone.map(|stone| Self::Stone(stone.frosted(of_plane))).map_err(BodyDataError::Stone)

@@ -87,9 +87,10 @@ impl Companions {
         let seated = |kind| {
             let is_seated = |at: DVec3| self.seat_at(at) == Some(kind);
             let beside = || self.stones.iter().find(|stone| is_seated(stone.pose.at));
-            match is_seated(at) {
-                true => Some(Arc::clone(own)),
-                false => beside().map(|stone| Arc::clone(&stone.specimen)),
+            if is_seated(at) {
+                Some(Arc::clone(own))
+            } else {
+                beside().map(|stone| Arc::clone(&stone.specimen))
             }
         };
         let (stone, small_stone) = (seated(SeatKind::Main), seated(SeatKind::Small));

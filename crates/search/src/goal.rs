@@ -229,27 +229,22 @@ impl GoalMeasure {
     fn fault(&self) -> Option<(&'static str, &'static str)> {
         let numbers = |list: &Option<OneOrMore<f64>>| list.as_ref().map_or(vec![], |all| all.all().to_vec());
         let limits = [self.at_least, self.at_most, self.may_lose];
-        match () {
-            () if !(-1000.0..=1000.0).contains(&self.weight) => {
-                Some(("weight", "give a number from -1000 to 1000"))
-            }
-            () if self.terms() == 0 => {
-                Some(("of", "a list of materials, tilts or azimuths is empty; leave it out"))
-            }
-            () if numbers(&self.tilt).iter().any(|tilt| !(-90.0..=90.0).contains(tilt)) => {
-                Some(("tilt", "give -90 to 90 degrees"))
-            }
-            () if numbers(&self.azimuth).iter().any(|azimuth| !(-360.0..=360.0).contains(azimuth)) => {
-                Some(("azimuth", "give -360 to 360 degrees"))
-            }
-            () if limits.iter().flatten().any(|limit| !limit.is_finite()) => {
-                Some(("at_least", "limits are finite numbers"))
-            }
-            () if self.may_lose.is_some_and(|lost| lost < 0.0) => Some(("may_lose", "give 0 or more")),
-            () if self.at_least > self.at_most && self.at_most.is_some() => {
-                Some(("at_least", "it must not be above at_most"))
-            }
-            () => None,
+        if !(-1000.0..=1000.0).contains(&self.weight) {
+            Some(("weight", "give a number from -1000 to 1000"))
+        } else if self.terms() == 0 {
+            Some(("of", "a list of materials, tilts or azimuths is empty; leave it out"))
+        } else if numbers(&self.tilt).iter().any(|tilt| !(-90.0..=90.0).contains(tilt)) {
+            Some(("tilt", "give -90 to 90 degrees"))
+        } else if numbers(&self.azimuth).iter().any(|azimuth| !(-360.0..=360.0).contains(azimuth)) {
+            Some(("azimuth", "give -360 to 360 degrees"))
+        } else if limits.iter().flatten().any(|limit| !limit.is_finite()) {
+            Some(("at_least", "limits are finite numbers"))
+        } else if self.may_lose.is_some_and(|lost| lost < 0.0) {
+            Some(("may_lose", "give 0 or more"))
+        } else if self.at_least > self.at_most && self.at_most.is_some() {
+            Some(("at_least", "it must not be above at_most"))
+        } else {
+            None
         }
     }
 }

@@ -101,12 +101,11 @@ impl VariedNumber {
     /// # Errors
     /// Fails where the design lacks a number, where there is none, or where the given design lies outside a range.
     pub(super) fn all(goal: &Goal, design: &Design) -> Result<Vec<Self>, SearchError> {
-        let numbers = match goal.vary.is_empty() {
-            true => Self::usual(&design.cut),
-            false => {
-                let named = goal.vary.iter().map(|(name, range)| Self::named(&design.cut, name, *range));
-                named.collect::<Result<_, _>>()?
-            }
+        let numbers = if goal.vary.is_empty() {
+            Self::usual(&design.cut)
+        } else {
+            let named = goal.vary.iter().map(|(name, range)| Self::named(&design.cut, name, *range));
+            named.collect::<Result<_, _>>()?
         };
         if numbers.is_empty() {
             return Err(SearchError::NoNumbers);

@@ -276,9 +276,10 @@ impl DesignSearch {
         let mut best = self.objective.start().clone();
         let mut found = &start;
         if let Some((places, roughly)) = record.best.as_ref().filter(|(places, _)| *places != start) {
-            let finely = match trials.stopped.load(Ordering::Relaxed) {
-                true => Err(SearchError::Stopped),
-                false => self.objective.appraise(places, finest, false, &|_| watch(1.0)),
+            let finely = if trials.stopped.load(Ordering::Relaxed) {
+                Err(SearchError::Stopped)
+            } else {
+                self.objective.appraise(places, finest, false, &|_| watch(1.0))
             };
             let better = match finely {
                 Err(SearchError::Stopped) => {
@@ -346,9 +347,10 @@ impl Trials<'_> {
         match self.search.objective.appraise(places, unresolved, with_slopes, &watch) {
             Ok(found) => {
                 // Rough figures only show where to measure finely.
-                match unresolved <= self.search.options.unresolved {
-                    true => self.note(places, &found),
-                    false => self.tell(done, self.best_total(), None),
+                if unresolved <= self.search.options.unresolved {
+                    self.note(places, &found)
+                } else {
+                    self.tell(done, self.best_total(), None)
                 }
                 Some(found)
             }

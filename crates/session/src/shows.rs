@@ -1,9 +1,10 @@
 //! The pictures and drawings that a view can show.
 //!
-//! To add one, add a row, and its kind in `Shows::kind`. A picture in a scope needs nothing else. For any other the compiler asks
-//! in `ShotTracer::take` (`studio/take.rs`) and in `Shot::subject` (`studio/order.rs`), which says what it depends on; its job
-//! stands in `studio/jobs.rs`. One that is not traced is drawn in `views/pane.rs` or looked up in `tasks/lookup.rs`. Those that
-//! exports offer stand first; `EXPORTED` counts them. Say in `is_seen`, `needs_facets` and the like what it is.
+//! To add one, add a row; those that exports offer stand first, and `EXPORTED` counts them. The compiler asks for its name in
+//! `Shows::picture`, for what it depends on in `Shot::subject` (`studio/order.rs`), and, of one that is no picture in a scope, how it
+//! is taken (`studio/take.rs`, with its job in `studio/jobs.rs`). What it is say also `is_seen`, `needs_facets`, `takes_perspective`,
+//! `takes_overlay` and `has_copies`, for which the compiler does not ask. `crates/editor/src/views` draws what is not traced
+//! (`pane.rs`), and legends (`scene_view.rs`).
 
 use crate::described::described;
 use brillianteer_picture::{Picture, PictureName, Scoped};

@@ -80,10 +80,8 @@ impl<V: Vector> DispersedRay<V> {
         let Refraction { eta: [eta, of_eta], cosines } = *into;
         let (cos_i, cos_t) = cosines;
         let direction = refract(self.direction, at.normal, eta, cosines);
-        let fan = match is_fanned {
-            true => self.incidence(at, cos_i).refracted_change(eta, of_eta, cos_t),
-            false => self.fan,
-        };
+        let fan =
+            if is_fanned { self.incidence(at, cos_i).refracted_change(eta, of_eta, cos_t) } else { self.fan };
         Self { origin: at.point, direction, fan, shift: at.shift }
     }
 

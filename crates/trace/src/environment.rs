@@ -326,9 +326,12 @@ impl Environment<'_> {
             |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
         let (d, s, fanned) = (own(direction), own(fan), fan.length());
         let lamps = self.map.lamps.iter();
-        let share = |l: &Disc| match spread > fanned {
-            true => share_of_disc(d - l.toward, spread, l.chord_squared),
-            false => share_inside(d - l.toward, s, l.chord_squared),
+        let share = |l: &Disc| {
+            if spread > fanned {
+                share_of_disc(d - l.toward, spread, l.chord_squared)
+            } else {
+                share_inside(d - l.toward, s, l.chord_squared)
+            }
         };
         let lit = lamps.map(|l| l.radiance * share(l)).sum::<DVec4>();
         let sum = self.map.at(d, fanned.max(spread)) + lit;

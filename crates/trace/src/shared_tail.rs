@@ -50,12 +50,11 @@ impl SharedTail {
         let point = point_in_polygon(&end.outline, end.area, spot);
         let (origin, direction, path) = end.ray(point);
         let scale = 1.0 / end.weight;
-        let light = match self.polarised {
-            true => {
-                let fields = end.coherency.fields().map(|parts| parts.map(|part| part * scale.sqrt()));
-                PathLight::of_fields(fields, end.s)
-            }
-            false => PathLight::Unpolarised(1.0),
+        let light = if self.polarised {
+            let fields = end.coherency.fields().map(|parts| parts.map(|part| part * scale.sqrt()));
+            PathLight::of_fields(fields, end.s)
+        } else {
+            PathLight::Unpolarised(1.0)
         };
         let own = Medium { index: end.slant.index, ..*medium };
         let mut chances = ChainRoulette::new(ROULETTE, luck, &light, own.transmittance(path));

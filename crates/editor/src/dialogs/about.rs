@@ -116,9 +116,10 @@ fn list(actions: &mut Actions, ui: &mut Ui, sought: &str, height: f32) {
         Grid::new("crates").num_columns(2).striped(true).show(ui, |ui| {
             for Crate { name, version, licence, link: address } in found {
                 let text = format!("{name} {version}");
-                match address.is_empty() {
-                    true => drop(ui.label(text)),
-                    false => link(actions, ui, &text, address),
+                if address.is_empty() {
+                    drop(ui.label(text))
+                } else {
+                    link(actions, ui, &text, address)
                 }
                 ui.add(Label::new(licence).wrap());
                 ui.end_row();

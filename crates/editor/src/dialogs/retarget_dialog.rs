@@ -45,9 +45,10 @@ pub fn show(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
         }
     });
     let answers = [DialogAction::Apply, DialogAction::Leave];
-    match form.found.as_ref().is_ok_and(|found| !found.tiers.is_empty()) {
-        true => answer(actions, answers, buttons_alone(ui, &["Apply", "Cancel"])),
-        false => answer(actions, [DialogAction::Leave], buttons_alone(ui, &["Cancel"])),
+    if form.found.as_ref().is_ok_and(|found| !found.tiers.is_empty()) {
+        answer(actions, answers, buttons_alone(ui, &["Apply", "Cancel"]))
+    } else {
+        answer(actions, [DialogAction::Leave], buttons_alone(ui, &["Cancel"]))
     }
 }
 
@@ -114,9 +115,10 @@ fn tiers(found: &Retargeted, ui: &mut Ui) {
                 let margin_text = RichText::new(format!("{}°", signed(margin, 2)));
                 let is_leaking = margin < 0.0;
                 let colour = theme::caution(ui.visuals());
-                match tier.after_deg < 0.0 {
-                    true => ui.label(if is_leaking { margin_text.color(colour) } else { margin_text }),
-                    false => ui.label(""),
+                if tier.after_deg < 0.0 {
+                    ui.label(if is_leaking { margin_text.color(colour) } else { margin_text })
+                } else {
+                    ui.label("")
                 };
                 ui.end_row();
             }

@@ -52,9 +52,10 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
     // A design cannot keep a girdle thickness in mm, so its size can be taken over only where the girdle is that of
     // the design.
     let answers = [DialogAction::Apply, DialogAction::Leave];
-    match form.found.is_ok() && form.options.girdle_mm.is_none() {
-        true => answer(actions, answers, buttons_alone(ui, &["Use this size", "Close"])),
-        false => answer(actions, [DialogAction::Leave], buttons_alone(ui, &["Close"])),
+    if form.found.is_ok() && form.options.girdle_mm.is_none() {
+        answer(actions, answers, buttons_alone(ui, &["Use this size", "Close"]))
+    } else {
+        answer(actions, [DialogAction::Leave], buttons_alone(ui, &["Close"]))
     }
 }
 

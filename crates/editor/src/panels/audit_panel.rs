@@ -61,9 +61,10 @@ fn summary(model: &Model) -> String {
             "{count} candidates; whether one is a fault is for you to judge. W is the width of the stone."
         ),
     };
-    match document.shows_last_possible() {
-        true => format!("{found} The design makes no stone now; the list is about the last stone."),
-        false => found,
+    if document.shows_last_possible() {
+        format!("{found} The design makes no stone now; the list is about the last stone.")
+    } else {
+        found
     }
 }
 

@@ -66,9 +66,10 @@ fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
             "Motion",
             "In renders, copies tumble, and plates also wave. M starts and stops the motion.",
         );
-        let (name, meaning) = match motion.is_on {
-            true => ("Pause", "Stops the motion; the picture then becomes sharper."),
-            false => ("Play", "Starts the motion."),
+        let (name, meaning) = if motion.is_on {
+            ("Pause", "Stops the motion; the picture then becomes sharper.")
+        } else {
+            ("Play", "Starts the motion.")
         };
         let size = vec2(control_width(ui), ui.spacing().interact_size.y);
         if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {

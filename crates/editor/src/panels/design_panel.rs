@@ -32,11 +32,10 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
             if !is_scene && (matches!(work.design.cut, Cut::Glass(_)) || work.copies != Copies::default()) {
                 copy_rows::presets(actions, ui);
             }
-            let meaning = match is_graded(&work.design) {
-                true => {
-                    "Drag a slider or type a number. The green band is the range that GIA calls excellent."
-                }
-                false => "Drag a slider or type a number.",
+            let meaning = if is_graded(&work.design) {
+                "Drag a slider or type a number. The green band is the range that GIA calls excellent."
+            } else {
+                "Drag a slider or type a number."
             };
             heading(ui, "Proportions", meaning);
             mesh_rows::show(model, actions, ui);

@@ -96,9 +96,12 @@ impl Figure {
             Source::Total(of) => return of(figures, &scope),
             Source::Zone(name) => scope.bands.iter().position(|band| band.name == name),
         };
-        band.map_or(0.0, |band| match counting.by_area {
-            true => figures.strongest_exit_area[band],
-            false => energy(figures, band, counting.glare),
+        band.map_or(0.0, |band| {
+            if counting.by_area {
+                figures.strongest_exit_area[band]
+            } else {
+                energy(figures, band, counting.glare)
+            }
         })
     }
 }
@@ -180,14 +183,14 @@ fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
     if both.iter().all(|measured| measured.grade == Grade::Fine) {
         return 0.0;
     }
-    let unresolved = both.map(|ShownFigures { figures, .. }| match by_area {
-        true => figures.strongest_exit_undecided,
-        false => figures.uncertain(),
-    });
-    let sampled = both.map(|ShownFigures { figures, .. }| match by_area {
-        true => figures.area_error(),
-        false => figures.standard_error,
-    });
+    let unresolved = both.map(
+        |ShownFigures { figures, .. }| {
+            if by_area { figures.strongest_exit_undecided } else { figures.uncertain() }
+        },
+    );
+    let sampled = both.map(
+        |ShownFigures { figures, .. }| if by_area { figures.area_error() } else { figures.standard_error },
+    );
     unresolved[0].max(unresolved[1]) + SIGMAS * (sampled[0] + sampled[1])
 }
 

@@ -37,9 +37,10 @@ pub fn view(eye: &Eye) -> String {
     let tilt = eye.tilt().to_degrees();
     let azimuth = (eye.view(None).azimuth - eye.turn).to_degrees().rem_euclid(360.0);
     let what = if eye.eye_leans { "eye" } else { "stone" };
-    match tilt == 0.0 {
-        true => "Table side, face up".to_owned(),
-        false => format!("Table side, {what} tilted {}° toward {}°", fixed(tilt, 1), fixed(azimuth, 0)),
+    if tilt == 0.0 {
+        "Table side, face up".to_owned()
+    } else {
+        format!("Table side, {what} tilted {}° toward {}°", fixed(tilt, 1), fixed(azimuth, 0))
     }
 }
 
@@ -55,9 +56,10 @@ pub fn shown(model: &Model, as_table: bool) -> Option<String> {
         other: other.and(model.session.compared.as_ref()).map(|compared| compared.name.as_str()),
     };
     let lines = |by_area| lines(measured, other, Counting { by_area, ..counting });
-    Some(match as_table {
-        true => csv(&about, &lines(false), &lines(true)),
-        false => text(&about, &lines(counting.by_area)),
+    Some(if as_table {
+        csv(&about, &lines(false), &lines(true))
+    } else {
+        text(&about, &lines(counting.by_area))
     })
 }
 
@@ -137,9 +139,10 @@ pub fn tilts(head: f64, glare: Glare, tilts: &Tilts) -> String {
 
 /// Returns a cell of the table, in quotes where it needs them.
 fn quoted(cell: &str) -> String {
-    match cell.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell.to_owned(),
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
     }
 }
 

@@ -194,9 +194,12 @@ fn limit(limit: &mut Option<f64>, name: &str, ui: &mut Ui) {
     let before = limit.map_or(NOT_KNOWN, |part| 100.0 * part);
     let mut percent = before;
     let field = DragValue::new(&mut percent).speed(0.1).max_decimals(2).update_while_editing(false);
-    let field = field.custom_formatter(|percent, _| match percent.is_finite() {
-        true => format!("{}", (100.0 * percent).round() / 100.0),
-        false => UNKNOWN.to_owned(),
+    let field = field.custom_formatter(|percent, _| {
+        if percent.is_finite() {
+            format!("{}", (100.0 * percent).round() / 100.0)
+        } else {
+            UNKNOWN.to_owned()
+        }
     });
     let field = field.custom_parser(|text| match text.trim().trim_end_matches('%').trim() {
         "" | UNKNOWN => Some(NOT_KNOWN),

@@ -83,9 +83,10 @@ fn refraction(known: &Material, first: Option<&Material>, ui: &mut Ui) -> Option
     if let Some(first) = first.filter(|first| is_back(first, n, v)) {
         return Some(first.clone());
     }
-    let material = match v.is_finite() {
-        true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
-        false => Material::from_index(&format!("index {n:.3}"), n),
+    let material = if v.is_finite() {
+        Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v)
+    } else {
+        Material::from_index(&format!("index {n:.3}"), n)
     };
     material.ok()
 }

@@ -67,9 +67,12 @@ pub fn show(model: &Model, tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
                 actions.push(Edit::Scale { side, percent, of });
             }
             // A typed percentage is applied at once and reset; a drag counts from its beginning.
-            ui.data_mut(|data| match field.dragged() {
-                true => drop(data.insert_temp(id, DraggedScale { from, percent })),
-                false => drop(data.remove_temp::<DraggedScale>(id)),
+            ui.data_mut(|data| {
+                if field.dragged() {
+                    data.insert_temp(id, DraggedScale { from, percent });
+                } else {
+                    data.remove_temp::<DraggedScale>(id);
+                }
             });
             explain(ui, field, meaning);
         });

@@ -27,9 +27,10 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         let is_of_kind = |place: &usize| Arc::ptr_eq(&stones[*place].specimen, kind);
         let places: Vec<usize> = (0..stones.len()).filter(is_of_kind).collect();
         let is_seated = work.companions.seat_at(stones[places[0]].pose.at).is_some();
-        let meaning = match is_seated {
-            true => "A stone of the scene's ring, which holds it in its seat.",
-            false => "A stone of the scene. Drag it in a render to move it; it stops before others.",
+        let meaning = if is_seated {
+            "A stone of the scene's ring, which holds it in its seat."
+        } else {
+            "A stone of the scene. Drag it in a render to move it; it stops before others."
         };
         let text = counted(places.len(), &kind.design);
         row(ui, "Beside it", meaning, &text, |ui| {

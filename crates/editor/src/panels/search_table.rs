@@ -67,9 +67,10 @@ fn group(ui: &mut Ui, (name, colour): (&str, Color32), changes: &[MeasureChange]
 
 /// Writes a value with its error.
 fn part(value: Interval) -> String {
-    match value.most.is_finite() {
-        true => format!("{:.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error()),
-        false => format!("at least {:.2} %", 100.0 * value.least),
+    if value.most.is_finite() {
+        format!("{:.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error())
+    } else {
+        format!("at least {:.2} %", 100.0 * value.least)
     }
 }
 

@@ -177,9 +177,10 @@ fn over(model: &Model, ended: &EndedSearch, actions: &mut Actions, ui: &mut Ui) 
     let is_present = model.document.work.design == ended.after;
     ui.horizontal(|ui| {
         let is_undone = ended.has_changed() && matches!(ended.end, SearchEnd::Found(_));
-        let (name, meaning) = match is_undone {
-            true => ("Keep", "Keeps the design that was found. Edit > Undo still takes it back."),
-            false => ("Back", "Goes back to the goal."),
+        let (name, meaning) = if is_undone {
+            ("Keep", "Keeps the design that was found. Edit > Undo still takes it back.")
+        } else {
+            ("Back", "Goes back to the goal.")
         };
         let keep = ui.button(name);
         actions.push_if(explain(ui, keep, meaning).clicked(), SearchAction::Keep);

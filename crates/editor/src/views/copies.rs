@@ -27,15 +27,14 @@ pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneV
     let before = cx.model.session.held;
     let is_start = response.drag_started_by(PointerButton::Primary);
     let can_hold = can_hold(cx.model) && cx.shows == Shows::Render;
-    let held = match is_start && can_hold && !ui.input(|i| i.modifiers.shift) {
-        true => {
-            let from = ui.input(|i| i.pointer.press_origin());
-            let found = from.and_then(|at| found(cx, sight, at));
-            // A ring holds its stones, so that a drag there turns the view.
-            let found = found.filter(|found| cx.model.companions().seat_at(found.pose.at).is_none());
-            found.map(|found| (cx.pane, found.number))
-        }
-        false => before,
+    let held = if is_start && can_hold && !ui.input(|i| i.modifiers.shift) {
+        let from = ui.input(|i| i.pointer.press_origin());
+        let found = from.and_then(|at| found(cx, sight, at));
+        // A ring holds its stones, so that a drag there turns the view.
+        let found = found.filter(|found| cx.model.companions().seat_at(found.pose.at).is_none());
+        found.map(|found| (cx.pane, found.number))
+    } else {
+        before
     };
     let own = held.filter(|(pane, _)| *pane == cx.pane);
     // Undo during a drag may leave fewer stones.
@@ -102,9 +101,10 @@ pub fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneVie
     let Some(FoundStone { number, specimen, pose, facet }) = found(cx, sight, at) else { return };
     sight.outline_face(ui, &specimen.body, facet, |corner| pose.place(corner));
     let (copies, facet) = (cx.model.document.work.copies.poses.len(), specimen.body.name(facet));
-    cx.tools.attention.message = match number < copies {
-        true => format!("copy {} of {copies}: {facet}", number + 1),
-        false => format!("{}, {}: {facet}", specimen.design.name, specimen.material.name),
+    cx.tools.attention.message = if number < copies {
+        format!("copy {} of {copies}: {facet}", number + 1)
+    } else {
+        format!("{}, {}: {facet}", specimen.design.name, specimen.material.name)
     };
 }
 

@@ -39,9 +39,10 @@ impl Gallery {
     /// Returns the picture of a view: looked up where the view shows such a picture, else traced.
     pub fn shown(&self, model: &Model, slot: Slot) -> Option<&Shown> {
         let shows = model.workspace.panes[slot.0].shows;
-        match model.is_looked_up(slot.0) {
-            true => self.looked.get(&slot).filter(|shown| shown.shot.shows == shows),
-            false => self.traced.get(&slot),
+        if model.is_looked_up(slot.0) {
+            self.looked.get(&slot).filter(|shown| shown.shot.shows == shows)
+        } else {
+            self.traced.get(&slot)
         }
     }
 

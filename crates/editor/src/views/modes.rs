@@ -125,10 +125,8 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
     let gap = ui.spacing().item_spacing.x;
     let widths: Vec<f32> = names.iter().map(|name| button_width(ui, name) + gap).collect();
     let more = button_width(ui, &rest_label(modes.len())) + gap;
-    let shown = match widths.iter().sum::<f32>() <= width {
-        true => modes.len(),
-        false => fitting(&widths, width - more),
-    };
+    let shown =
+        if widths.iter().sum::<f32>() <= width { modes.len() } else { fitting(&widths, width - more) };
     let mut ended = None;
     let chips = || names.iter().zip(&modes).enumerate();
     for (k, (name, mode)) in chips().take(shown) {

@@ -55,10 +55,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     if is_alone {
         select(cx, &response, &sight);
     }
-    match is_alone {
-        true => hover(cx, ui, &response, &sight),
-        false => copies::hover(cx, ui, &response, &sight),
-    }
+    if is_alone { hover(cx, ui, &response, &sight) } else { copies::hover(cx, ui, &response, &sight) }
 }
 
 /// Follows the clicked ray, unless the click becomes a double click, and marks the followed ray.

@@ -94,9 +94,10 @@ fn way(sight: &PaneView, point: DVec3, normal: DVec3) -> Option<(Vec2, f64)> {
     if !(way.length() > 0.0 || whole > 0.0) {
         return None;
     }
-    Some(match way.length() < LEAST_LENGTH * whole {
-        true => (vec2(0.0, -1.0), 1.0 / f64::from(whole)),
-        false => (way.normalized(), 1.0 / f64::from(way.length())),
+    Some(if way.length() < LEAST_LENGTH * whole {
+        (vec2(0.0, -1.0), 1.0 / f64::from(whole))
+    } else {
+        (way.normalized(), 1.0 / f64::from(way.length()))
     })
 }
 

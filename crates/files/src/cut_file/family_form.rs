@@ -42,11 +42,12 @@ impl FamilyForm {
             if let Some((mover, _)) = self.movers().find(|(mover, _)| mover.does_move(row)) {
                 if self.given.contains_key(key) {
                     let (mover_key, place) = (mover.key, Self::place_of(mover));
-                    let message = match place.contains(' ') {
-                        true => format!(
+                    let message = if place.contains(' ') {
+                        format!(
                             "{mover_key}: it stands in the place of {place}; leave out {key}, or give {place} without {mover_key}"
-                        ),
-                        false => format!("{mover_key}: give {key} or {mover_key}, not both"),
+                        )
+                    } else {
+                        format!("{mover_key}: give {key} or {mover_key}, not both")
                     };
                     return Err(Fault::key(format!("{table}/{}", mover.key), message));
                 }

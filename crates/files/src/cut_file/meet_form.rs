@@ -122,9 +122,10 @@ impl PointForm {
 }
 
 fn corner(names: Vec<String>) -> Result<MeetPoint, String> {
-    match names.iter().any(|name| name.trim().is_empty()) || names.is_empty() {
-        true => Err("a corner has no names; list those of the tiers that meet there".to_owned()),
-        false => Ok(MeetPoint::Corner(names)),
+    if names.iter().any(|name| name.trim().is_empty()) || names.is_empty() {
+        Err("a corner has no names; list those of the tiers that meet there".to_owned())
+    } else {
+        Ok(MeetPoint::Corner(names))
     }
 }
 

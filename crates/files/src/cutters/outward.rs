@@ -25,9 +25,10 @@ pub(in super::super) type FacetOutline = (Plane, Vec<DVec3>);
 pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<String>) -> Cow<'a, Tiers> {
     let design = &specimen.design;
     if let Cut::Tiers(tiers) = &design.cut {
-        return match tiers.has_named_meets() {
-            true => Cow::Owned(tiers.with_names_in_meets()),
-            false => Cow::Borrowed(tiers),
+        return if tiers.has_named_meets() {
+            Cow::Owned(tiers.with_names_in_meets())
+        } else {
+            Cow::Borrowed(tiers)
         };
     }
     let brilliant = design.cut.brilliant().is_some();

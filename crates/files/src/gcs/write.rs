@@ -147,9 +147,10 @@ fn put_tiers(tiers: &Tiers, page: &mut Page, lost: &mut Vec<String>) {
     let mut outlines = outlines.into_iter();
     for tier in &tiers.tiers {
         let uncut = |facet: &Indexed| (tiers.plane(tier, facet.index), Vec::new());
-        let facets: Vec<FacetOutline> = match tier.is_cut {
-            true => outlines.by_ref().take(tier.facets.len()).collect(),
-            false => tier.facets.iter().map(uncut).collect(),
+        let facets: Vec<FacetOutline> = if tier.is_cut {
+            outlines.by_ref().take(tier.facets.len()).collect()
+        } else {
+            tier.facets.iter().map(uncut).collect()
         };
         put_tier(tiers, tier, &facets, &form, page);
     }

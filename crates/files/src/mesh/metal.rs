@@ -23,9 +23,10 @@ pub fn read_shaded(path: &Path) -> Result<(ShadedMesh, Vec<String>), FileError> 
     let MeshFile { format, surface, normals, warnings, .. } =
         file::parse_shaded(bytes, &label, path.parent())?;
     let is_given = |&v: &u32| normals.get(v as usize).is_some_and(|n| n.is_finite() && *n != DVec3::ZERO);
-    let mut made = match surface.triangles.iter().flatten().all(is_given) {
-        true => ShadedSurface { points: surface.vertices, corners: surface.triangles, normals },
-        false => ShadedSurface::creased(&surface.vertices, &surface.triangles, CREASE_DEG.to_radians().cos()),
+    let mut made = if surface.triangles.iter().flatten().all(is_given) {
+        ShadedSurface { points: surface.vertices, corners: surface.triangles, normals }
+    } else {
+        ShadedSurface::creased(&surface.vertices, &surface.triangles, CREASE_DEG.to_radians().cos())
     };
     if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) {
         let upright = |v: &mut DVec3| *v = DVec3::new(v.x, -v.z, v.y);
@@ -47,9 +48,9 @@ pub fn write_shaded(surface: &ShadedSurface) -> String {
     }
     let has_normals = !normals.is_empty();
     for corners in corners {
-        let [a, b, c] = corners.map(|corner| match (corner + 1, has_normals) {
-            (corner, true) => format!("{corner}//{corner}"),
-            (corner, false) => corner.to_string(),
+        let [a, b, c] = corners.map(|corner| {
+            let number = corner + 1;
+            if has_normals { format!("{number}//{number}") } else { number.to_string() }
         });
         let _ = writeln!(text, "f {a} {b} {c}");
     }

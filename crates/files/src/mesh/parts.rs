@@ -138,9 +138,10 @@ fn several(mended: &Mended, chosen: Option<usize>) -> Option<String> {
     let parts = &mended.parts;
     let count = parts.len();
     let read = chosen.map_or("all are read as one".to_owned(), |place| format!("{} is read", place + 1));
-    let kind = match parts.iter().any(|part| part.within.is_some()) {
-        true => "bodies are in the file, one inside another",
-        false => "separate bodies are in the file",
+    let kind = if parts.iter().any(|part| part.within.is_some()) {
+        "bodies are in the file, one inside another"
+    } else {
+        "separate bodies are in the file"
     };
     (count > 1).then(|| format!("{count} {kind}: {}; {read}", listed(&bodies(mended, chosen))))
 }

@@ -143,10 +143,14 @@ pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
 /// Returns a direction in the form in which it can be given.
 fn axis(direction: DVec3) -> String {
     let named = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
-    let is = |(name, axis): &(&str, DVec3)| match () {
-        () if (direction - *axis).length() < ON_AXIS => Some((*name).to_owned()),
-        () if (direction + *axis).length() < ON_AXIS => Some(format!("-{name}")),
-        () => None,
+    let is = |(name, axis): &(&str, DVec3)| {
+        if (direction - *axis).length() < ON_AXIS {
+            Some((*name).to_owned())
+        } else if (direction + *axis).length() < ON_AXIS {
+            Some(format!("-{name}"))
+        } else {
+            None
+        }
     };
     named.iter().find_map(is).unwrap_or_else(|| {
         // Rounded first, so that a tiny negative number does not become -0.

@@ -34,14 +34,15 @@ impl MeshSize {
         let in_mm = |mm_per_unit: f64| (PARTS * across * mm_per_unit).round() / PARTS;
         if let MeshUnit::Millimetres(mm_per_unit) = unit {
             let diameter_mm = in_mm(mm_per_unit);
-            return match DIAMETERS_MM.contains(&diameter_mm) {
-                true => Ok(Self { diameter_mm, note: None }),
-                false => Err(Fault::whole(format!(
+            return if DIAMETERS_MM.contains(&diameter_mm) {
+                Ok(Self { diameter_mm, note: None })
+            } else {
+                Err(Fault::whole(format!(
                     "with a unit of {mm_per_unit} mm the stone is {diameter_mm} mm across, where {} to {} mm are \
                      possible; give another unit",
                     DIAMETERS_MM.start(),
                     DIAMETERS_MM.end()
-                ))),
+                )))
             };
         }
         let is_metric = matches!(format, MeshFormat::Glb | MeshFormat::Gltf);

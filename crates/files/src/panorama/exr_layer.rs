@@ -77,9 +77,10 @@ impl<'h> ColourLayer<'h> {
         let mut candidates: Vec<Candidate> =
             headers.iter().filter(|header| !header.deep).flat_map(candidates).collect();
         let Some(best) = (0..candidates.len()).min_by_key(|&k| candidates[k].rank) else {
-            let problem = match headers.iter().all(|header| header.deep) {
-                true => "it holds deep data, several samples a pixel; save it flat, as RGB",
-                false => "no layer has channels R, G and B, or the luminance Y; save it as RGB",
+            let problem = if headers.iter().all(|header| header.deep) {
+                "it holds deep data, several samples a pixel; save it flat, as RGB"
+            } else {
+                "no layer has channels R, G and B, or the luminance Y; save it as RGB"
             };
             return Err(problem.into());
         };

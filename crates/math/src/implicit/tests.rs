@@ -165,9 +165,10 @@ fn walk(field: &ImplicitSurface, origin: DVec3, direction: DVec3) -> (Vec<f64>, 
         let goes_in = found.len() % 2 == 0;
         let from = origin + direction * t;
         let mut steps = 0;
-        let step = match goes_in {
-            true => field.way_in(from, direction, &mut steps),
-            false => field.way_out(from, direction, &mut steps),
+        let step = if goes_in {
+            field.way_in(from, direction, &mut steps)
+        } else {
+            field.way_out(from, direction, &mut steps)
         };
         let Some(step) = step else { return (found, !goes_in || steps >= roots::MOST_STEPS) };
         let stays = t + step <= t && found.len() > 2;

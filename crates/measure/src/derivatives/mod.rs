@@ -224,9 +224,12 @@ mod tests {
             let calls = calls.into_inner();
             assert!(calls > 2 * beams.len() / 2048, "{name}: {calls} calls");
             for last in [0.0, 0.3, 0.9] {
-                let until = |done: f64| match done < last {
-                    true => std::ops::ControlFlow::Continue(()),
-                    false => std::ops::ControlFlow::Break(()),
+                let until = |done: f64| {
+                    if done < last {
+                        std::ops::ControlFlow::Continue(())
+                    } else {
+                        std::ops::ControlFlow::Break(())
+                    }
                 };
                 assert_eq!(name.derivatives(&beams, &stone, &settings, &until), Err(Stopped), "{name}");
             }

@@ -26,9 +26,10 @@ impl<'a> Apng<'a> {
 
 impl FrameSink for Apng<'_> {
     fn push(&mut self, rgba: &[u8]) -> io::Result<()> {
-        match self.transparent {
-            true => self.writer.write_image_data(rgba)?,
-            false => self.writer.write_image_data(&without_cover(rgba))?,
+        if self.transparent {
+            self.writer.write_image_data(rgba)?
+        } else {
+            self.writer.write_image_data(&without_cover(rgba))?
         }
         Ok(())
     }

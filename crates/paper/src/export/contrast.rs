@@ -109,9 +109,10 @@ impl Pictures<'_> {
                 let parts = taken.map.parts().map(|(outline, contrast)| (outline, contrast.known));
                 let words = (sheet.description(), sheet.whole());
                 let drawn = vector::contrast(viewing.stone()?, &taken.beams, parts, (&words.0, &words.1));
-                let drawn = match outputs.caption {
-                    true => sheet.caption().under(drawn, f64::from(vector::SIDE)),
-                    false => drawn,
+                let drawn = if outputs.caption {
+                    sheet.caption().under(drawn, f64::from(vector::SIDE))
+                } else {
+                    drawn
                 };
                 write_text(&path(OutputFormat::Svg), &drawn.to_string(), tell)?;
             }
@@ -122,10 +123,8 @@ impl Pictures<'_> {
     fn contrast_pixels(&self, sheet: &ContrastSheet, path: &Path, watch: Watch) -> Result<(), Failure> {
         let film = sheet.viewing.film(self.outputs.size);
         let [width, height] = film.size;
-        let (below, caption) = match self.outputs.caption {
-            true => caption_pixels(&sheet.caption(), width)?,
-            false => (0, vec![]),
-        };
+        let (below, caption) =
+            if self.outputs.caption { caption_pixels(&sheet.caption(), width)? } else { (0, vec![]) };
         let mut file = PngFile::begin(path, (width, height + below), &sheet.description())?;
         sheet.taken.paint(&film, watch, |pixels| file.push(pixels).map_err(Failure::from))?;
         file.push(&caption)?;

@@ -139,9 +139,10 @@ impl SheetFile {
         let how = traced(reading, (backend, open), job);
         let in_caption = open.map_or_else(|| how.clone(), |open| in_percent(reading, open));
         let [width, height] = job.film.size;
-        let (below, caption) = match outputs.caption {
-            true => caption_pixels(&sheet.caption(reading, &in_caption), width)?,
-            false => (0, vec![]),
+        let (below, caption) = if outputs.caption {
+            caption_pixels(&sheet.caption(reading, &in_caption), width)?
+        } else {
+            (0, vec![])
         };
         let description = sheet.description(&remark(reading, sheet.glare), &how);
         let png = PngFile::begin(&path, (width, height + below), &description)?;

@@ -235,10 +235,7 @@ fn diffuse_layer(path: &Path, size: [u32; 2]) -> Result<Linear, Fault> {
     };
     let light = |(value, &alpha): (&[f32; 3], &f32)| {
         let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
-        let linear = |c: f32| match codes.is_exr {
-            true => c,
-            false => linear_from_encoded(f64::from(c)) as f32 * alpha,
-        };
+        let linear = |c: f32| if codes.is_exr { c } else { linear_from_encoded(f64::from(c)) as f32 * alpha };
         let [red, green, blue] = value.map(|c| if c.is_finite() { linear(c).max(0.0) } else { 0.0 });
         [red, green, blue, alpha]
     };

@@ -180,9 +180,12 @@ pub(super) fn deviations(stone: &ReportedStone) -> Option<ReportTable> {
         ("worst facet", numbers),
     ]);
     for class in classes {
-        let worst = |of: &brillianteer_measure::FacetDeviation, spread: f64| match spread < NOT_SHOWN {
-            true => "–".to_owned(),
-            false => format!("{} {}°", of.facet, signed(of.by_deg, 3)),
+        let worst = |of: &brillianteer_measure::FacetDeviation, spread: f64| {
+            if spread < NOT_SHOWN {
+                "–".to_owned()
+            } else {
+                format!("{} {}°", of.facet, signed(of.by_deg, 3))
+            }
         };
         let cells = [
             class.class.to_owned(),
@@ -230,9 +233,10 @@ fn add_pattern(table: &mut ReportTable, name: &str, pattern: &EightfoldPattern) 
     }
     let label = format!("{name}: departure from eightfold, % of its area");
     let worst = pattern.worst();
-    let worst = match worst.by >= NOT_SHOWN {
-        true => format!("{} ({}) {}", worst.octant, pattern.mains[worst.octant - 1], fixed(worst.by, 3)),
-        false => "–".to_owned(),
+    let worst = if worst.by >= NOT_SHOWN {
+        format!("{} ({}) {}", worst.octant, pattern.mains[worst.octant - 1], fixed(worst.by, 3))
+    } else {
+        "–".to_owned()
     };
     table.rows.push([label, fixed(pattern.departure, 3), String::new(), worst].map(Into::into).to_vec());
 }

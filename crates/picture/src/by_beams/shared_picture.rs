@@ -321,9 +321,10 @@ impl PaintedPiece<'_> {
             self.lost.unresolved += unresolved * energy;
             let response = picture.response(&end.group);
             for (mean, (_, pixels)) in means.iter().zip(&self.copies) {
-                let seen = match picture.is_clear {
-                    true => colour(&response, mean.light) * (end.energy / end.area),
-                    false => mean.colour * (energy / end.area),
+                let seen = if picture.is_clear {
+                    colour(&response, mean.light) * (end.energy / end.area)
+                } else {
+                    mean.colour * (energy / end.area)
                 };
                 self.patches.put(&end.outline, pixels, seen.extend(0.0));
             }
@@ -352,10 +353,8 @@ impl PaintedPiece<'_> {
             }
         });
         let (_, left) = picture.response_after(&end.group, &clearest, path);
-        let absorbed = match picture.is_clear {
-            true => 0.0,
-            false => left * clearest.transmittance(path) - seen - loss.unresolved,
-        };
+        let absorbed =
+            if picture.is_clear { 0.0 } else { left * clearest.transmittance(path) - seen - loss.unresolved };
         Lost { absorbed: absorbed * scale, unresolved: loss.unresolved * scale }
     }
 

@@ -87,9 +87,10 @@ impl DiagramStyle {
     fn type_points(&self, lines: usize, points: [f64; 2]) -> f64 {
         let list = if self.most_lines == 0 { 0.0 } else { LIST_LINE * (lines as f64 + 0.8) };
         let extra = if self.is_sheet { SHEET_EXTRA } else { SMALL_EXTRA };
-        let size = match self.is_stacked {
-            true => [2.0 * self.half_room(), 4.0 * self.half_height()],
-            false => [2.0 * (self.half_apart() + self.half_room()), 2.0 * self.leaders() + list + extra],
+        let size = if self.is_stacked {
+            [2.0 * self.half_room(), 4.0 * self.half_height()]
+        } else {
+            [2.0 * (self.half_apart() + self.half_room()), 2.0 * self.leaders() + list + extra]
         };
         NAME.size * (points[0] / size[0]).min(points[1] / size[1])
     }
@@ -97,9 +98,10 @@ impl DiagramStyle {
     /// Returns the place of the middle of a view: the crown's to the left of the pavilion's, or above it.
     pub(super) fn place(&self, is_crown: bool) -> DVec2 {
         let side = if is_crown { -1.0 } else { 1.0 };
-        match self.is_stacked {
-            true => DVec2::new(0.0, side * self.half_height()),
-            false => DVec2::new(side * self.half_apart(), 0.0),
+        if self.is_stacked {
+            DVec2::new(0.0, side * self.half_height())
+        } else {
+            DVec2::new(side * self.half_apart(), 0.0)
         }
     }
 

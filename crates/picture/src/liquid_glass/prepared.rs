@@ -111,10 +111,8 @@ impl PreparedPane {
         let mut colours = vec![[0.0; 3]; across * down];
         let taps: &[FrostTap] = if self.shape.quality == PaneQuality::High { &FIVE } else { &THREE };
         let (is_dispersed, arch) = (self.shape.dispersion > 0.0, Arch::new());
-        let planes = match self.shape.frost > 0.0 && is_dispersed {
-            true => planes(background),
-            false => Default::default(),
-        };
+        let planes =
+            if self.shape.frost > 0.0 && is_dispersed { planes(background) } else { Default::default() };
         let lines = colours.par_chunks_mut(across.max(1)).zip(&self.rows).enumerate();
         lines.for_each(|(y, (to, row))| {
             let start = [self.area.first[0], self.area.first[1] + y as u32];

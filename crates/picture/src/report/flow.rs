@@ -232,9 +232,10 @@ fn foot(sheet: &mut Sheet, frame: Frame, (page, pages): (usize, usize), report: 
     let y = frame.high.y + FOOT - 6.0;
     let program = format!("page {page} of {pages} · Brillianteer {}", env!("CARGO_PKG_VERSION"));
     sheet.plain_text(SMALL, Align::End, DVec2::new(frame.high.x, y), &program);
-    let said = match report.mark.is_empty() {
-        true => report.title.clone(),
-        false => format!("{} · {}", report.title, report.mark),
+    let said = if report.mark.is_empty() {
+        report.title.clone()
+    } else {
+        format!("{} · {}", report.title, report.mark)
     };
     let room = frame.high.x - frame.low.x - text_width(&program, SMALL.size) - 20.0;
     let said = shortened(&said, SMALL.size, room);

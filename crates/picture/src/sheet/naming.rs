@@ -78,9 +78,10 @@ fn write_inside(sheet: &mut Sheet, places: &mut Places, tier: &SeenTier) -> bool
         let middles: Vec<DVec2> = tier.outlines.iter().filter_map(middle).map(|(_, middle)| middle).collect();
         let kind = Type { size, colour: Ink::Main };
         for &at in &middles {
-            match upright {
-                true => sheet.upright_text(kind, Align::Middle, at, &tier.name),
-                false => sheet.plain_text(kind, Align::Middle, at, &tier.name),
+            if upright {
+                sheet.upright_text(kind, Align::Middle, at, &tier.name)
+            } else {
+                sheet.plain_text(kind, Align::Middle, at, &tier.name)
             }
             let half = extent / 2.0;
             places.room.taken.push(Frame { low: at - half, high: at + half });
@@ -137,9 +138,10 @@ fn write_outside(sheet: &mut Sheet, places: &mut Places, tier: &SeenTier, leader
 impl Places {
     /// Returns the alignment of a name at the end of a leader, and the place where it begins or ends.
     fn beside(&self, to: DVec2) -> (Align, DVec2) {
-        match to.x < self.room.middle.x {
-            true => (Align::End, to - DVec2::X * BESIDE),
-            false => (Align::Start, to + DVec2::X * BESIDE),
+        if to.x < self.room.middle.x {
+            (Align::End, to - DVec2::X * BESIDE)
+        } else {
+            (Align::Start, to + DVec2::X * BESIDE)
         }
     }
 

@@ -144,8 +144,8 @@ pub(super) fn profiles(stone: &Stone) -> [Basis; 2] {
     if extent.x <= extent.y { [along(DVec3::X), along(DVec3::Y)] } else { [along(DVec3::Y), along(DVec3::X)] }
 }
 
-/// Returns the scale, in units per girdle radius, at which both profiles fit into a box of this size with their captions,
-/// dimension lines and leaders.
+/// Returns the scale, in units per girdle radius, at which either profile fits into `room`. Captions, dimension lines and leaders
+/// stand outside of it.
 pub(super) fn profile_scale(stone: &Stone, room: DVec2) -> f64 {
     let (low, high) = stone.polytope.bounds();
     let extent = high - low;

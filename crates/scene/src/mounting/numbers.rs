@@ -1,7 +1,9 @@
 //! The numbers that describe a ring, each in one row that scene files, the panel, errors and documents read.
 //! `Ring::default` has their usual values.
 //!
-//! To add a number, add a field of `Ring`, a row here, and a line in docs/formats.md.
+//! To add a number, add a field of `Ring` with its usual value (`ring.rs`), a row at the end of those here, the form that it
+//! changes (`band.rs`, `head.rs`, `halo.rs`, `row.rs`), a limit that depends on other numbers in `Ring::check` (`making.rs`), its
+//! field in `any_ring` of `tests.rs`, and a line in docs/formats.md.
 
 use super::{Ring, RingError, RingStyle};
 use brillianteer_base::{NumberRow, Unit};

@@ -138,9 +138,8 @@ fn a_photograph_taken_in_parts_is_the_one_taken_at_once_and_can_be_stopped() {
             ControlFlow::Continue(())
         });
         assert!(whole == Some(world.picture(size, 2.0)) && parts == 3, "{world:?}");
-        let stopped = world.picture_in_parts(size, 2.0, |done| match done > 0.3 {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
+        let stopped = world.picture_in_parts(size, 2.0, |done| {
+            if done > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         assert!(stopped.is_none());
     }

@@ -22,10 +22,7 @@ struct Scale<'a> {
 
 impl Scale<'_> {
     fn nearest(&self, number: &VariedNumber, place: f64) -> f64 {
-        match number.is_angle(self.cut) {
-            true => number.snapped(place, self.step).unwrap_or(place),
-            false => place,
-        }
+        if number.is_angle(self.cut) { number.snapped(place, self.step).unwrap_or(place) } else { place }
     }
 
     /// Returns the places with their angles rounded.
@@ -59,14 +56,14 @@ impl Trials<'_> {
         let scale = Scale { numbers: objective.numbers(), cut: &objective.design().cut, step };
         let is_stopped = self.stopped.load(Ordering::Relaxed);
         let begun = Instant::now();
-        let for_a_while = |_: f64| match begun.elapsed() < ROUNDING {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
+        let for_a_while = |_: f64| {
+            if begun.elapsed() < ROUNDING { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
         let appraised = |places: &Vec<f64>| {
-            let found = match is_stopped {
-                true => objective.appraise(places, self.search.options.unresolved, false, &for_a_while).ok(),
-                false => self.near(places, false),
+            let found = if is_stopped {
+                objective.appraise(places, self.search.options.unresolved, false, &for_a_while).ok()
+            } else {
+                self.near(places, false)
             };
             Some((places.clone(), found?))
         };

@@ -87,9 +87,10 @@ impl Orders<'_> {
         if shows.needs_facets() && specimen.stone().is_err() {
             return None;
         }
-        let (specimen, copies) = match shows.has_copies() {
-            true => self.model.copies(which, self.waves)?,
-            false => (specimen, vec![Pose::STILL]),
+        let (specimen, copies) = if shows.has_copies() {
+            self.model.copies(which, self.waves)?
+        } else {
+            (specimen, vec![Pose::STILL])
         };
         let companions = if shows.has_copies() { self.model.companions() } else { Companions::default() };
         let plain = self.plain(shows, view, specimen);

@@ -117,9 +117,10 @@ impl Preset {
         for (number, (instance, place)) in whole.instances.iter().zip(&places).enumerate() {
             let pose = in_mm(&instance.pose);
             let kind = Kind::of(place, seat(number));
-            match kind == first_kind {
-                true => poses.push(Pose { at: pose.at / unit_mm, scale: 1.0, ..pose }),
-                false => stones.push(Companion { specimen: specimen_of(place, kind, &mut made)?, pose }),
+            if kind == first_kind {
+                poses.push(Pose { at: pose.at / unit_mm, scale: 1.0, ..pose })
+            } else {
+                stones.push(Companion { specimen: specimen_of(place, kind, &mut made)?, pose })
             }
         }
         let metals = whole.metals.into_iter();
@@ -236,9 +237,10 @@ mod tests {
             for (instance, place) in assembly.scene.instances.iter().zip(&assembly.places) {
                 let corner = instance.pose.place(DVec3::new(0.3, -0.2, 0.1)) * assembly.scene.unit_mm;
                 let is_first = Kind::of(place, None) == Kind::of(&assembly.places[0], None);
-                let at = match is_first {
-                    true => own.next().unwrap().place(DVec3::new(0.3, -0.2, 0.1)) * unit_mm,
-                    false => others.next().unwrap().pose.place(DVec3::new(0.3, -0.2, 0.1)),
+                let at = if is_first {
+                    own.next().unwrap().place(DVec3::new(0.3, -0.2, 0.1)) * unit_mm
+                } else {
+                    others.next().unwrap().pose.place(DVec3::new(0.3, -0.2, 0.1))
                 };
                 assert!(at.distance(corner) < 1e-9, "{name}: {at} instead of {corner}");
             }

@@ -126,9 +126,10 @@ impl FittedScene {
         let (fitted, now) = (self.ball, present.ball);
         let fits = fitted.middle.distance(now.middle) + now.radius <= OUTGROWN * fitted.radius
             && now.radius >= SHRUNK * fitted.radius;
-        match fits {
-            true => self.bodies = present.bodies,
-            false => *self = present,
+        if fits {
+            self.bodies = present.bodies
+        } else {
+            *self = present
         }
         !fits
     }

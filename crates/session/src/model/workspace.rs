@@ -224,9 +224,10 @@ impl Workspace {
     pub fn view(&self, pane: usize) -> View {
         let Pane { shows, is_near, .. } = self.panes[pane];
         let view = self.eye(pane).view(shows.side());
-        match is_near && shows.takes_perspective() {
-            true => View { projection: Projection::Perspective { distance: self.distance }, ..view },
-            false => view,
+        if is_near && shows.takes_perspective() {
+            View { projection: Projection::Perspective { distance: self.distance }, ..view }
+        } else {
+            view
         }
     }
 

@@ -59,9 +59,8 @@ impl Making {
         let (wanted, stop) = (asked.clone(), Arc::clone(&is_stopped));
         let make = move || {
             urgency::lower();
-            let go_on = |_: f64| match stop.load(Ordering::Relaxed) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
+            let go_on = |_: f64| {
+                if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
             // Nobody listens where another background is wanted meanwhile.
             let _ = sender.send(made_of(&wanted, film, &go_on));

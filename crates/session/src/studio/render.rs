@@ -132,9 +132,10 @@ impl ShotTracer {
         watch: Watch,
     ) -> Result<Option<Arc<Mipmap>>, Failure> {
         let Some(asked) = asked else { return Ok(None) };
-        match effort.is_refined() {
-            true => self.backgrounds.fine(asked, watch),
-            false => self.backgrounds.at_hand(asked),
+        if effort.is_refined() {
+            self.backgrounds.fine(asked, watch)
+        } else {
+            self.backgrounds.at_hand(asked)
         }
     }
 }

@@ -20,10 +20,7 @@ pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Re
         CopyOriginal::Shot(shot) => shot,
         CopyOriginal::Profile(specimen) => return drawn(specimen, *side),
     };
-    let watch = |_: f64| match is_stopped() {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    };
+    let watch = |_: f64| if is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     // A copied render has as many passes as an exported one.
     if shot.shows == Shows::Render {
         return ShotTracer::default().export(shot, &watch)?.image(shot, &watch);

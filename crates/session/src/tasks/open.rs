@@ -21,9 +21,10 @@ use std::time::Duration;
 /// says what to do.
 pub fn read(request: &FileRequest) -> Result<OpenedFile, Failure> {
     let FileRequest { purpose, path, mesh } = request;
-    match *purpose == OpeningPurpose::Anew && is_scene(path) {
-        true => Ok(OpenedFile::Scene(Box::new(Preset::read(path)?))),
-        false => Ok(OpenedFile::Design(Box::new(Document::open(path, mesh)?))),
+    if *purpose == OpeningPurpose::Anew && is_scene(path) {
+        Ok(OpenedFile::Scene(Box::new(Preset::read(path)?)))
+    } else {
+        Ok(OpenedFile::Design(Box::new(Document::open(path, mesh)?)))
     }
 }
 

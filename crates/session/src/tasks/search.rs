@@ -43,10 +43,7 @@ fn found(
     say: &(dyn Fn(SearchEvent) + Sync),
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Box<SearchReport>, SearchError> {
-    let watch = |_: f64| match is_stopped() {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    };
+    let watch = |_: f64| if is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     let search = DesignSearch::new(&request.design, &request.goal, request.options, &watch)?;
     let said: Mutex<Option<Instant>> = Mutex::default();
     let outcome = search.run(&watch, &|progress: &SearchProgress| {

@@ -221,15 +221,14 @@ fn land(front: &Front<Flight>, path_before: Affine, landing: &Landing, beams: &B
     });
     let path = path_before + landing.distance;
     let area = landing.twice_area / 2.0;
-    let (left, loss) = match beams.medium.is_clear() {
-        true => (area, None),
-        false => {
-            let left = |path| attenuated(landing.outline, path, &beams.medium);
-            let before = if landing.is_whole { front.flight.left } else { left(path_before) };
-            let after = left(path);
-            let absorbed = arriving.weight() * (before - after);
-            (after, Some(BeamLoss { transmittance: after / area, absorbed }))
-        }
+    let (left, loss) = if beams.medium.is_clear() {
+        (area, None)
+    } else {
+        let left = |path| attenuated(landing.outline, path, &beams.medium);
+        let before = if landing.is_whole { front.flight.left } else { left(path_before) };
+        let after = left(path);
+        let absorbed = arriving.weight() * (before - after);
+        (after, Some(BeamLoss { transmittance: after / area, absorbed }))
     };
     Landed { path, exit, loss, light, s, left, cos_i }
 }

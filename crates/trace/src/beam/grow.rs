@@ -348,10 +348,8 @@ impl<'a> Tracer<'a> {
                 self.beams.is_cut_short = left > goal && movable;
                 break;
             }
-            level = match left <= goal {
-                true => level * EFFORT_STEP,
-                false => next_level(level, left, &mut before, goal),
-            };
+            level =
+                if left <= goal { level * EFFORT_STEP } else { next_level(level, left, &mut before, goal) };
             let strong = |energy: f64, bounces: u32| energy >= level && bounces < MOST_BOUNCES;
             self.follow_all(strong, options, &|| watch(done))?;
             if !self.is_full(options, 0) {

@@ -165,9 +165,10 @@ impl<P: PacketSurface> Passage<'_, P> {
             if !has_slipped && weight > end.least && *bounces < self.options.most_bounces {
                 continue;
             }
-            let [unresolved, absorbed] = match has_slipped {
-                true => before.map(|light| light.lane(lane)),
-                false => [end.unresolved(weight), absorbed],
+            let [unresolved, absorbed] = if has_slipped {
+                before.map(|light| light.lane(lane))
+            } else {
+                [end.unresolved(weight), absorbed]
             };
             self.losses.push(PacketLoss { absorbed, unresolved, tag: *tag });
             rays.set_lane(lane, &InnerRay::DARK);

@@ -53,9 +53,10 @@ impl LobeLuck {
     pub fn draw(&self) -> ([f64; 3], Self) {
         let number = |k: usize| {
             let own = mixed(self.seed.wrapping_add(k as u64));
-            unit(match self.is_later {
-                false => own.wrapping_add(STEPS[k].wrapping_mul(self.number)),
-                true => mixed(own ^ mixed(self.number)),
+            unit(if self.is_later {
+                mixed(own ^ mixed(self.number))
+            } else {
+                own.wrapping_add(STEPS[k].wrapping_mul(self.number))
             })
         };
         let later = Self { seed: mixed(self.seed ^ SALT), is_later: true, ..*self };

@@ -153,9 +153,10 @@ impl Odd {
         let corner = |corner: &str| {
             let mut parts = corner.split('/');
             let (place, normal) = (parts.next().unwrap_or_default(), parts.nth(1).unwrap_or_default());
-            match self.keeps_normals && !normal.is_empty() {
-                true => format!("{place}//{normal} "),
-                false => format!("{place} "),
+            if self.keeps_normals && !normal.is_empty() {
+                format!("{place}//{normal} ")
+            } else {
+                format!("{place} ")
             }
         };
         text.split_whitespace().map(corner).collect()

@@ -150,9 +150,10 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset, beg
     let laid = copies.poses(document.specimen().solid().vertices(), None);
     let is_laid = !companions.is_empty() || laid == copies.poses;
     let layers = if is_laid { "" } else { ", some of them farther back so that none overlap" };
-    let shown = match companions.is_empty() {
-        true => format!("renders show all copies{layers}; other views show one"),
-        false => "renders show the whole scene; other views show the stone that is edited".to_owned(),
+    let shown = if companions.is_empty() {
+        format!("renders show all copies{layers}; other views show one")
+    } else {
+        "renders show the whole scene; other views show the stone that is edited".to_owned()
     };
     document.work.remarks = preset.remarks.clone().into();
     document.begin_with(copies.clone(), companions.clone(), preset.settings());

@@ -171,9 +171,10 @@ pub fn trace_shared<B: SharedBeams>(
     let level = level_for(polytope, clearest, view, &options.beams, &|part| watch(PART_OF_LEVEL * part))?;
     let level = level * (media.len() as f64 * options.usual_part).max(1.0);
     let basis = view.basis();
-    let symmetry = match options.beams.symmetry {
-        true => Symmetry::of(polytope.planes(), &basis, view.zenith()),
-        false => Symmetry::NONE,
+    let symmetry = if options.beams.symmetry {
+        Symmetry::of(polytope.planes(), &basis, view.zenith())
+    } else {
+        Symmetry::NONE
     };
     let silhouette_area = polytope.silhouette_area(basis.toward);
     let sliver = SLIVER * silhouette_area;
@@ -429,10 +430,8 @@ impl<'a> Sharer<'a> {
     /// Returns the light that goes on from a front at a slant.
     fn light_at(&self, front: &SharedFront, slant: &Slant) -> EndLight {
         let (common, entry) = (self.common, &front.entry);
-        let polarised = |light: Coherency| match common.options.beams.polarised {
-            true => light,
-            false => light.unpolarised(),
-        };
+        let polarised =
+            |light: Coherency| if common.options.beams.polarised { light } else { light.unpolarised() };
         let eta = 1.0 / slant.index;
         let (entered, _) = Coherency::entered(&fresnel(entry.cos_i, eta));
         let mut light = polarised(entered);

@@ -35,11 +35,12 @@ pub(super) fn load(
             Source::Bin => blob.take().ok_or_else(|| Fault::whole("a binary chunk is expected in the file")),
             Source::Uri(uri) => uri::read(uri, folder),
         };
-        let whole_one = read.and_then(|bytes| match bytes.len() < buffer.length() {
-            true => {
+        let whole_one = read.and_then(|bytes| {
+            if bytes.len() < buffer.length() {
                 Err(format!("{} bytes are announced, and {} are there", buffer.length(), bytes.len()).into())
+            } else {
+                Ok(bytes)
             }
-            false => Ok(bytes),
         });
         let bytes = match whole_one {
             Err(_) if !needed.contains(&buffer.index()) => vec![],
