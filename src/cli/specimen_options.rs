@@ -69,9 +69,20 @@ impl SpecimenOptions {
         let material = self.named_material()?;
         let SizeOptions { size, mesh } = &self.sized;
         let assembly = Assembly::load(file, material.as_ref(), *size, &mesh.sized(*size))?;
-        assembly.remarks.iter().for_each(|remark| say(remark));
-        assembly.other_readings.iter().for_each(note_readings);
+        note_remarks(&assembly);
         Ok(assembly)
+    }
+
+    /// Loads a scene as [`load_assembly`](Self::load_assembly) does; `None` where the file or the name is no scene.
+    ///
+    /// # Errors
+    /// Fails where [`load_assembly`](Self::load_assembly) does.
+    pub fn load_scene(&self, file: &Path) -> Result<Option<Assembly>, Failure> {
+        let material = self.named_material()?;
+        let SizeOptions { size, mesh } = &self.sized;
+        let scene = Assembly::load_scene(file, material.as_ref(), *size, &mesh.sized(*size))?;
+        scene.iter().for_each(note_remarks);
+        Ok(scene)
     }
 
     /// Makes a scene of the bodies of a mesh, to be written into a folder.
@@ -94,6 +105,12 @@ impl SpecimenOptions {
         let size = size.iter().flat_map(|size| ["--stone".to_owned(), size.to_string().replace(' ', "")]);
         material.chain(size).chain(mesh.words()).collect()
     }
+}
+
+/// Prints notes and warnings about the files of stones and metal.
+fn note_remarks(assembly: &Assembly) {
+    assembly.remarks.iter().for_each(|remark| say(remark));
+    assembly.other_readings.iter().for_each(note_readings);
 }
 
 #[cfg(test)]
