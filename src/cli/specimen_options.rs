@@ -2,6 +2,7 @@
 
 use super::console::say;
 use super::mesh_options::MeshArguments;
+use super::progress::while_reading;
 use super::specimen::{LoadedSpecimen, asked_material, note_readings};
 use brillianteer_base::Failure;
 use brillianteer_cut::{MaterialRef, Size};
@@ -68,7 +69,8 @@ impl SpecimenOptions {
     pub fn load_assembly(&self, file: &Path) -> Result<Assembly, Failure> {
         let material = self.named_material()?;
         let SizeOptions { size, mesh } = &self.sized;
-        let assembly = Assembly::load(file, material.as_ref(), *size, &mesh.sized(*size))?;
+        let load = || Assembly::load(file, material.as_ref(), *size, &mesh.sized(*size));
+        let assembly = while_reading(file, load)?;
         note_remarks(&assembly);
         Ok(assembly)
     }
@@ -80,7 +82,8 @@ impl SpecimenOptions {
     pub fn load_scene(&self, file: &Path) -> Result<Option<Assembly>, Failure> {
         let material = self.named_material()?;
         let SizeOptions { size, mesh } = &self.sized;
-        let scene = Assembly::load_scene(file, material.as_ref(), *size, &mesh.sized(*size))?;
+        let load = || Assembly::load_scene(file, material.as_ref(), *size, &mesh.sized(*size));
+        let scene = while_reading(file, load)?;
         scene.iter().for_each(note_remarks);
         Ok(scene)
     }
@@ -91,7 +94,8 @@ impl SpecimenOptions {
     /// Fails where [`scene_of_bodies`] does, and where the material is not known.
     pub fn scene_of_bodies(&self, file: &Path, folder: &Path) -> Result<BodiesScene, Failure> {
         let options = self.sized.mesh.options();
-        Ok(scene_of_bodies(file, folder, &options, self.named_material()?.as_ref())?)
+        let material = self.named_material()?;
+        Ok(while_reading(file, || scene_of_bodies(file, folder, &options, material.as_ref()))?)
     }
 
     fn named_material(&self) -> Result<Option<MaterialRef>, Failure> {
