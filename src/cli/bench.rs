@@ -6,6 +6,7 @@ mod card_use;
 mod report;
 
 use super::console::{print, print_json, say};
+use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use brillianteer_base::{Failure, unwatched};
 use brillianteer_files::mesh_options::MeshOptions;
@@ -67,12 +68,18 @@ impl BenchArguments {
         if !self.json {
             print(&format!("modern ideal; {threads} threads{}", card_peak()?))?;
         }
+        // Tables show how far it is; JSON comes in the end.
+        let progress = self.json.then(|| WorkProgress::new("timing the tracers"));
         let mut tasks = vec![];
         let mut done = |task: BenchTask| -> Result<(), Failure> {
             if !self.json {
                 print(&format!("\n{}", task.table()))?;
             }
             tasks.push(task);
+            if let Some(progress) = &progress {
+                // The progress never asks to stop.
+                let _ = progress.watch()(tasks.len() as f64 / (SCOPES.len() + 1 + TILTS.len()) as f64);
+            }
             Ok(())
         };
         for (size, bounces) in SCOPES {
@@ -82,6 +89,7 @@ impl BenchArguments {
         for tilt_deg in TILTS {
             done(figures(&specimen, tilt_deg)?)?;
         }
+        drop(progress);
         if !self.json {
             return Ok(());
         }

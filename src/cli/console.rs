@@ -39,6 +39,20 @@ pub fn written(path: &Path) -> Result<(), Failure> {
     if is_standard(path) { Ok(()) } else { print(&path.display().to_string()) }
 }
 
+/// Says on standard error that a file was written: where standard output has JSON (`is_json`), a path would break it. Otherwise
+/// prints the path as [`written`] does.
+pub fn written_beside(is_json: bool, path: &Path) -> Result<(), Failure> {
+    match is_json {
+        false => written(path),
+        true => {
+            if !is_standard(path) {
+                say(&format!("wrote {}", path.display()));
+            }
+            Ok(())
+        }
+    }
+}
+
 /// Prints a note that a folder was missing and has been made.
 pub fn made_folder(folder: &Path) {
     say(&format!("note: the folder {} was missing and has been made", folder.display()));

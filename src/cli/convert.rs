@@ -1,4 +1,4 @@
-//! `convert`: writes a stone's design in another format.
+//! `convert`: writes a stone's design in another format, or the bodies of a scene as a mesh.
 
 use super::choice::{DESIGN_FORMATS, one_of};
 use super::comments;
@@ -8,15 +8,17 @@ use super::specimen::LoadedSpecimen;
 use super::specimen_options::SpecimenOptions;
 use brillianteer_base::Failure;
 use brillianteer_cut::{Cut, Design};
+use brillianteer_files::assembly::Assembly;
 use brillianteer_files::bodies_scene::BodiesScene;
 use brillianteer_files::design_file::{self, DesignFormat};
-use brillianteer_files::{WriteError, is_standard, scene_file, write};
+use brillianteer_files::{WriteError, is_standard, scene_file, scene_mesh, write};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A file of a design or a mesh, or the name of a cut that comes with the program
+    /// A file of a design, a mesh or a scene, or the name of a cut or a scene that comes with the program. Of a scene its stones and
+    /// its metal are written where they lie, as .obj, .stl, .ply or .glb
     input: PathBuf,
     /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl, .ply or .glb. `-` is standard output
     /// and needs --format
@@ -56,11 +58,14 @@ impl Convert {
         if !self.drop_comments {
             comments::keep(&self.input, &self.output, "give another name, or --drop-comments")?;
         }
-        let mut specimen = self.specimen.load(&self.input)?;
-        if self.meets {
-            specimen = followed(specimen)?;
-        }
-        let lost = design_file::write(&specimen, format, &self.output)?;
+        let lost = match self.scene_of_input()? {
+            Some(scene) => scene_mesh::write(&scene, format, &self.output)?,
+            None => {
+                let specimen = self.specimen.load(&self.input)?;
+                let specimen = if self.meets { followed(specimen)? } else { specimen };
+                design_file::write(&specimen, format, &self.output)?
+            }
+        };
         for what in lost {
             say(&format!("note: {}: {what}", self.output.display()));
         }
@@ -69,6 +74,11 @@ impl Convert {
 }
 
 impl Convert {
+    /// Returns the scene that is read; `None` where the input is a stone, or has to be one.
+    fn scene_of_input(&self) -> Result<Option<Assembly>, Failure> {
+        if self.meets { Ok(None) } else { self.specimen.load_scene(&self.input) }
+    }
+
     fn write_scene(&self) -> Result<(), Failure> {
         let output = self.output.display();
         let is_toml = DesignFormat::of_name(&self.output) == Some(DesignFormat::Toml);

@@ -143,7 +143,7 @@ enum Command {
     Retarget(retarget::RetargetArguments),
     /// Show the size, weight and yield of the stone that a piece of rough gives, or a weight needs
     Yield(rough_yield::RoughYield),
-    /// Write a stone's design in another format
+    /// Write a stone's design in another format, or the stones and metal of a scene as a mesh
     Convert(convert::Convert),
     /// Time the tracers on the same pictures
     Bench(bench::BenchArguments),

@@ -1,7 +1,7 @@
 //! `optimise`: finds a better design by a goal, and prints which measures rose and which fell.
 
 use super::comments;
-use super::console::{OfFile, print, print_json, say, written};
+use super::console::{OfFile, print, print_json, say, written_beside};
 use super::optimise_text::text;
 use super::options::number;
 use super::plot_file::PlotFile;
@@ -197,10 +197,7 @@ impl OptimiseArguments {
         }
         kept?;
         self.draw(plot.as_ref(), &specimen.design.name, &outcome)?;
-        match &self.out {
-            Some(out) if !self.json => written(out),
-            _ => Ok(()),
-        }
+        self.out.iter().try_for_each(|out| written_beside(self.json, out))
     }
 
     /// Draws how the best grew.
@@ -212,10 +209,8 @@ impl OptimiseArguments {
         }
         let title = format!("{name}: the best of the designs so far");
         let svg = progress_svg(&title, outcome).map_err(|error| plot.failed(&error))?;
-        match self.json {
-            true => plot.write_silently(&svg, &title),
-            false => plot.write(&svg, &title),
-        }
+        plot.write(&svg, &title)?;
+        written_beside(self.json, plot.path())
     }
 
     /// Returns the goal of the file and of the options.

@@ -1,6 +1,5 @@
 //! The file of a plot.
 
-use super::console::written;
 use brillianteer_base::Failure;
 use brillianteer_files::{WriteError, write};
 use brillianteer_paper::plot::PlotError;
@@ -47,14 +46,13 @@ impl PlotFile {
         Failure::Output(format!("{}: {error}", self.path.display()))
     }
 
-    /// Writes a plot that was drawn as SVG, and prints the file's name.
-    pub fn write(&self, svg: &str, title: &str) -> Result<(), Failure> {
-        self.write_silently(svg, title)?;
-        written(&self.path)
+    /// Returns the path of the file.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
-    /// Writes a plot that was drawn as SVG. Nothing is printed, for commands whose output is JSON.
-    pub fn write_silently(&self, svg: &str, title: &str) -> Result<(), Failure> {
+    /// Writes a plot that was drawn as SVG.
+    pub fn write(&self, svg: &str, title: &str) -> Result<(), Failure> {
         match self.format {
             PlotFormat::Svg => self.write_bytes(svg.as_bytes())?,
             PlotFormat::Pdf => {

@@ -11,7 +11,9 @@ use signal_hook::{
     consts::{SIGINT, SIGTERM, SIGXFSZ},
     iterator::Signals,
 };
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
+use std::path::Path;
 #[cfg(unix)]
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -103,6 +105,53 @@ fn end(signal: i32) -> ! {
     std::process::exit(128 + signal)
 }
 
+/// The time after which a sign says that a file is still being read.
+const MOMENT: Duration = Duration::from_millis(500);
+
+/// Reads a file. On a terminal a sign says so where this takes more than a moment, as a scan of many triangles does, unless other
+/// progress is shown.
+pub fn while_reading<T>(file: &Path, read: impl FnOnce() -> T) -> T {
+    if !std::io::stderr().is_terminal() {
+        return read();
+    }
+    let what = format!("reading {}", file.display());
+    let (ended, is_ended) = mpsc::channel::<()>();
+    // The scope owns the sender, so that the sign ends with the reading, however that ends.
+    std::thread::scope(move |scope| {
+        scope.spawn(move || sign(MOMENT, &is_ended, || show_sign(what)));
+        let found = read();
+        drop(ended);
+        found
+    })
+}
+
+/// Shows a sign after a moment, until the sender is gone; nothing where it is gone before.
+fn sign(moment: Duration, is_ended: &mpsc::Receiver<()>, show: impl FnOnce() -> Option<ProgressBar>) {
+    if is_ended.recv_timeout(moment) != Err(mpsc::RecvTimeoutError::Timeout) {
+        return;
+    }
+    if let Some(bar) = show() {
+        let _ = is_ended.recv();
+        *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        bar.finish_and_clear();
+    }
+}
+
+/// Shows a sign with the time that has passed; `None` where other progress is shown.
+fn show_sign(what: String) -> Option<ProgressBar> {
+    let mut shown = SHOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if shown.is_some() {
+        return None;
+    }
+    let bar = ProgressBar::new_spinner().with_message(what).with_elapsed(MOMENT);
+    if let Ok(style) = ProgressStyle::with_template("{msg:40!} {spinner} {elapsed:>4}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    *shown = Some(bar.clone());
+    Some(bar)
+}
+
 /// The progress of one piece of work. On a terminal it is a bar, which appears after a moment; elsewhere it is lines of text now
 /// and then.
 pub struct WorkProgress {
@@ -151,5 +200,26 @@ impl Drop for WorkProgress {
     fn drop(&mut self) {
         *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = None;
         self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sign_is_shown_for_what_takes_longer_than_a_moment_and_until_it_ends() {
+        let (ended, is_ended) = mpsc::channel();
+        drop(ended);
+        sign(Duration::from_secs(600), &is_ended, || unreachable!("it has ended before"));
+        let (ended, is_ended) = mpsc::channel();
+        let bar = ProgressBar::hidden();
+        let own = bar.clone();
+        sign(Duration::ZERO, &is_ended, move || {
+            assert!(!own.is_finished());
+            drop(ended);
+            Some(own)
+        });
+        assert!(bar.is_finished());
     }
 }

@@ -1,7 +1,7 @@
 //! `retarget`: fits a design to another material, and measures the light of both.
 
 use super::comments;
-use super::console::{print, print_json, say, written};
+use super::console::{print, print_json, say, written_beside};
 use super::options::{checked_wavelength, extrapolation, number};
 use super::specimen::{asked_material, note_colour};
 use super::specimen_options::SizeOptions;
@@ -165,9 +165,7 @@ impl RetargetArguments {
         if let (Some(out), Some(format)) = (&self.out, format) {
             let lost = design_file::write(&made, format, out)?;
             lost.iter().for_each(|what| say(&format!("note: {}: {what}", out.display())));
-            if !self.json {
-                written(out)?;
-            }
+            written_beside(self.json, out)?;
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Reads and builds the stone that a command works on.
 
 use super::console::say;
+use super::progress::while_reading;
 use brillianteer_base::Failure;
 use brillianteer_cut::from_mesh::FacetError;
 use brillianteer_cut::{Cut, MaterialError, MaterialRef, Size};
@@ -44,7 +45,7 @@ impl LoadedSpecimen {
     /// Reads a design, or takes by its name a cut that comes with the program, and builds the stone. Prints notes and
     /// warnings about it.
     pub fn load(file: &Path, mesh: &MeshOptions) -> Result<Self, Failure> {
-        let read = BuiltDesign::load(file, mesh)?;
+        let read = while_reading(file, || BuiltDesign::load(file, mesh))?;
         read.remarks.iter().for_each(|remark| say(remark));
         note_readings(&read.other_readings());
         let BuiltDesign { path, made, errors, bodies, remarks, .. } = read;

@@ -2,6 +2,7 @@
 
 use super::console::say;
 use super::mesh_options::MeshArguments;
+use super::progress::while_reading;
 use super::specimen::{LoadedSpecimen, asked_material, note_readings};
 use brillianteer_base::Failure;
 use brillianteer_cut::{MaterialRef, Size};
@@ -68,10 +69,23 @@ impl SpecimenOptions {
     pub fn load_assembly(&self, file: &Path) -> Result<Assembly, Failure> {
         let material = self.named_material()?;
         let SizeOptions { size, mesh } = &self.sized;
-        let assembly = Assembly::load(file, material.as_ref(), *size, &mesh.sized(*size))?;
-        assembly.remarks.iter().for_each(|remark| say(remark));
-        assembly.other_readings.iter().for_each(note_readings);
+        let load = || Assembly::load(file, material.as_ref(), *size, &mesh.sized(*size));
+        let assembly = while_reading(file, load)?;
+        note_remarks(&assembly);
         Ok(assembly)
+    }
+
+    /// Loads a scene as [`load_assembly`](Self::load_assembly) does; `None` where the file or the name is no scene.
+    ///
+    /// # Errors
+    /// Fails where [`load_assembly`](Self::load_assembly) does.
+    pub fn load_scene(&self, file: &Path) -> Result<Option<Assembly>, Failure> {
+        let material = self.named_material()?;
+        let SizeOptions { size, mesh } = &self.sized;
+        let load = || Assembly::load_scene(file, material.as_ref(), *size, &mesh.sized(*size));
+        let scene = while_reading(file, load)?;
+        scene.iter().for_each(note_remarks);
+        Ok(scene)
     }
 
     /// Makes a scene of the bodies of a mesh, to be written into a folder.
@@ -80,7 +94,8 @@ impl SpecimenOptions {
     /// Fails where [`scene_of_bodies`] does, and where the material is not known.
     pub fn scene_of_bodies(&self, file: &Path, folder: &Path) -> Result<BodiesScene, Failure> {
         let options = self.sized.mesh.options();
-        Ok(scene_of_bodies(file, folder, &options, self.named_material()?.as_ref())?)
+        let material = self.named_material()?;
+        Ok(while_reading(file, || scene_of_bodies(file, folder, &options, material.as_ref()))?)
     }
 
     fn named_material(&self) -> Result<Option<MaterialRef>, Failure> {
@@ -94,6 +109,12 @@ impl SpecimenOptions {
         let size = size.iter().flat_map(|size| ["--stone".to_owned(), size.to_string().replace(' ', "")]);
         material.chain(size).chain(mesh.words()).collect()
     }
+}
+
+/// Prints notes and warnings about the files of stones and metal.
+fn note_remarks(assembly: &Assembly) {
+    assembly.remarks.iter().for_each(|remark| say(remark));
+    assembly.other_readings.iter().for_each(note_readings);
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! `sweep`: writes the measures of designs over a grid of their proportions, angles, materials and views.
 
-use super::console::{say, written};
+use super::console::{say, written, written_beside};
 use super::measure_taking::MeasureTaking;
 use super::options::{pupil_diameter, rock_angle};
 use super::progress::WorkProgress;
@@ -167,7 +167,9 @@ impl SweepArguments {
             self.out.iter().try_for_each(|out| written(out))?;
         }
         match &outputs.plot {
-            Some(plot) if outputs.failed < files.len() * points => plot.write(&stem(&files[0]))?,
+            Some(plot) if outputs.failed < files.len() * points => {
+                written_beside(self.json, plot.write(&stem(&files[0]))?)?;
+            }
             _ => {}
         }
         outputs.end(files.len() * points)

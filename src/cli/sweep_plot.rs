@@ -112,10 +112,11 @@ impl<'a> SweepPlot<'a> {
         self.points.push(self.measures.iter().map(of).collect());
     }
 
-    /// Draws the plot and writes it.
-    pub fn write(&self, title: &str) -> Result<(), Failure> {
+    /// Draws the plot and writes it, and returns the path of its file.
+    pub fn write(&self, title: &str) -> Result<&Path, Failure> {
         let text = self.svg(title).map_err(|error| self.file.failed(&error))?;
-        self.file.write(&text, title)
+        self.file.write(&text, title)?;
+        Ok(self.file.path())
     }
 
     fn svg(&self, title: &str) -> Result<String, PlotError> {

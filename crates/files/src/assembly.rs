@@ -101,10 +101,25 @@ impl Assembly {
         size: Option<Size>,
         mesh: &MeshOptions,
     ) -> Result<Self, Failure> {
-        match scene(file)? {
-            Some(scene) => Self::of_scene(file, scene, material, (size, mesh)),
+        match Self::load_scene(file, material, size, mesh)? {
+            Some(scene) => Ok(scene),
             None => Self::of_stone(BuiltDesign::load(file, mesh)?, material, size),
         }
+    }
+
+    /// Reads a scene file, or takes a scene that comes with the program, as [`load`](Self::load) does; `None` where it is no
+    /// scene.
+    ///
+    /// # Errors
+    /// Fails where [`load`](Self::load) does.
+    pub fn load_scene(
+        file: &Path,
+        material: Option<&MaterialRef>,
+        size: Option<Size>,
+        mesh: &MeshOptions,
+    ) -> Result<Option<Self>, Failure> {
+        let scene = scene(file)?;
+        scene.map(|scene| Self::of_scene(file, scene, material, (size, mesh))).transpose()
     }
 
     /// Assembles a scene that was read from a file, or that comes with the program; `file` is its path or name.

@@ -35,6 +35,8 @@ mod numbers;
 mod overwriting;
 pub mod panorama;
 pub mod scene_file;
+#[cfg(feature = "interchange")]
+pub mod scene_mesh;
 pub mod scope_file;
 mod standard;
 pub mod text;

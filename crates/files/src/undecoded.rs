@@ -72,10 +72,6 @@ impl Undecoded for exr::error::Error {
             Self::NotSupported(what) => {
                 let kinds = [
                     ("deep", "it holds deep data, several samples a pixel, which are not read; save it flat"),
-                    (
-                        "subsampling",
-                        "its channels have fewer samples than pixels, which is not read; save it as RGB",
-                    ),
                     ("DWA", "its compression, DWA of this kind, is not read; save it with ZIP compression"),
                     ("compression", "its compression is not read; save it with ZIP compression"),
                     ("version", "its version of OpenEXR is not read; save it as version 2"),

@@ -12,6 +12,9 @@
 //! All numbers were taken from M. N. Polyanskiy's refractiveindex.info database, which is in the public domain (CC0).
 //! Alloys for jewellery (18 carat gold, 950 platinum, sterling silver) look a little paler than the pure metals here.
 
+use super::colour::LinearRgb;
+use super::illuminant::Illuminant;
+use super::observer::{OBSERVER_NM, SRGB_FROM_XYZ, seen};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +56,16 @@ impl Metal {
         let part = ((nm - low[0]) / (high[0] - low[0])).clamp(0.0, 1.0);
         let between = |column: usize| low[column] + (high[column] - low[column]) * part;
         Complex64::new(between(1), between(2))
+    }
+
+    /// Returns the colour of light of D65 that the metal's polished surface reflects straight back, where white is (1, 1, 1).
+    /// Components are within 0..=1: those that no screen shows are the nearest that it does.
+    pub fn colour(self) -> LinearRgb {
+        let power = |nm: f64| Illuminant::D65.power(nm);
+        let reflected = |nm: f64| power(nm) * metal_reflectance(1.0, self.index(nm))[0];
+        let (low, high) = OBSERVER_NM.into_inner();
+        let white = seen(low, high, power).y;
+        (SRGB_FROM_XYZ * (seen(low, high, reflected) / white)).clamp(LinearRgb::ZERO, LinearRgb::ONE)
     }
 
     fn rows(self) -> &'static [Row] {
@@ -165,7 +178,7 @@ const PLATINUM: [Row; 14] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fresnel;
+    use crate::{LUMINANCE, fresnel};
 
     fn normal(metal: Metal, nm: f64) -> f64 {
         metal_reflectance(1.0, metal.index(nm))[0]
@@ -197,6 +210,22 @@ mod tests {
         assert!((420..=700).all(|nm| normal(Metal::Silver, f64::from(nm)) > 0.95));
         assert!((0.60..0.70).contains(&normal(Metal::Platinum, 560.0)));
         assert!((0.74..0.80).contains(&normal(Metal::Rhodium, 560.0)));
+    }
+
+    #[test]
+    fn the_colour_of_a_metal_lies_between_its_least_and_its_greatest_reflectance_and_gold_is_yellow() {
+        for (name, metal) in Metal::NAMES {
+            let colour = metal.colour();
+            let all = (400..=700).map(|nm| normal(metal, f64::from(nm)));
+            let (low, high) =
+                all.fold((1.0_f64, 0.0_f64), |(low, high), part| (low.min(part), high.max(part)));
+            let luminance = colour.dot(glam::DVec3::from_array(LUMINANCE.map(f64::from)));
+            assert!((low..=high).contains(&luminance), "{name}: {colour} {low} {high}");
+        }
+        let gold = Metal::Gold.colour();
+        assert!(gold.x > 0.95 && (0.7..0.85).contains(&gold.y) && gold.z < 0.45, "{gold}");
+        let silver = Metal::Silver.colour();
+        assert!(silver.min_element() > 0.9 && silver.x >= silver.z, "{silver}");
     }
 
     #[test]

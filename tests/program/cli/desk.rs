@@ -51,14 +51,18 @@ impl Desk {
     }
 
     /// Runs a command that must succeed and returns its standard output. Standard error may hold only notes on illustrative
-    /// colours and on sizes that files do not state, and that a graphics card which was asked for is software.
+    /// colours and on sizes that files do not state, the names of files that are written beside JSON, and that a graphics card which
+    /// was asked for is software.
     pub fn done(&self, line: &str) -> String {
         let (code, printed, stderr) = self.run(line);
         let is_software = |l: &str| {
             line.contains("--tracer gpu") && l.contains("is no graphics card: it computes in software")
         };
-        let is_usual =
-            |l: &str| l.starts_with("note: the colour of ") || l.contains(": the file states no size; ");
+        let is_usual = |l: &str| {
+            l.starts_with("note: the colour of ")
+                || l.contains(": the file states no size; ")
+                || (line.contains("--json") && l.starts_with("wrote "))
+        };
         let is_quiet = stderr.lines().all(|l| is_usual(l) || is_software(l));
         assert!(code == 0 && is_quiet, "{line}: code {code}: {stderr}");
         printed

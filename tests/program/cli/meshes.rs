@@ -175,3 +175,36 @@ fn what_is_kept_of_a_design_is_told_for_each_format_of_meshes() {
         );
     }
 }
+
+#[test]
+fn a_scene_is_written_as_a_mesh_of_all_its_bodies() {
+    let desk = Desk::new();
+    for ending in ["glb", "obj", "stl", "ply"] {
+        let (code, printed, stderr) = desk.run(&format!("convert solitaire ring.{ending}"));
+        assert_eq!((code, printed), (0, format!("ring.{ending}\n")), "{stderr}");
+        let note = format!("note: ring.{ending}: only this part of the scene is kept: ");
+        assert!(stderr.starts_with(&note), "{stderr}");
+    }
+    // The stone of a ring can be taken out again by its name.
+    let (_, before, _) = desk.run("info --json solitaire");
+    let before: serde_json::Value = serde_json::from_str(&before).unwrap();
+    let name = before["stones"][0]["cut"].as_str().unwrap();
+    let text = desk.read("ring.obj");
+    assert!(
+        text.contains(&format!("\no stone 1, {name}\nusemtl diamond\n"))
+            && text.contains("\nusemtl platinum\n")
+    );
+    for (line, message) in [
+        (
+            "convert solitaire ring.asc",
+            "error: solitaire: this is a scene, which no .asc holds; write it as .glb, .obj, .ply or .stl\n",
+        ),
+        (
+            "convert --meets solitaire ring.toml",
+            "error: solitaire: this is a scene, where the file or the name of a cut is expected\n",
+        ),
+    ] {
+        let (code, _, stderr) = desk.run(line);
+        assert!(code != 0 && stderr == message, "{line}: {stderr}");
+    }
+}

@@ -22,6 +22,7 @@ fn default_names_tell_apart_what_options_change() {
         ("--light ring", "cube-ring-render.png"),
         ("--light ./mine.toml --turn 30 --upright", "cube-mine-turn-30-upright-render.png"),
         ("--stone 2mm --tilt 5", "cube-2mm-tilt-5-render.png"),
+        ("--exposure 0.123456789 --tilt 61.106482", "cube-exposure-0.1235-tilt-61.11-render.png"),
         ("--background #404850-#101215 --exposure -0.5", "cube-exposure--0.5-404850-101215-render.png"),
     ] {
         let printed = desk.done(&format!("render cube.toml {quick} {options}"));
@@ -48,8 +49,35 @@ fn commands_print_the_names_of_the_files_that_they_write() {
         assert_eq!(printed.lines().last(), Some(file), "{line}: {printed}");
         assert!(desk.at(file).is_file());
     }
-    let json = "retarget tolkowsky --material sapphire --rule critical-angle --no-light --json -o d.toml";
-    assert!(desk.json(json).is_object() && desk.at("d.toml").is_file());
+}
+
+#[test]
+fn beside_json_the_names_of_written_files_are_said_on_standard_error() {
+    let desk = Desk::new();
+    let quick = "--scatter 2 --climbs 1 --unresolved 0.1";
+    for (line, files) in [
+        (
+            "retarget tolkowsky --material sapphire --rule critical-angle --no-light --json -o d.toml",
+            "d.toml",
+        ),
+        (
+            &*format!(
+                "optimise tolkowsky --raise return-cos2 --vary table=53:60 {quick} --json -o e.toml --plot e.svg"
+            ),
+            "e.svg e.toml",
+        ),
+        ("sweep cube.toml --over index=1.5,1.6 --of leakage --unresolved 0.2 --json --plot f.svg", "f.svg"),
+    ] {
+        let (code, printed, stderr) = desk.run(line);
+        let said: Vec<&str> = stderr.lines().filter_map(|line| line.strip_prefix("wrote ")).collect();
+        assert_eq!((code, said.join(" ")), (0, files.to_owned()), "{line}: {stderr}");
+        assert!(files.split(' ').all(|file| desk.at(file).is_file()), "{line}");
+        let values = serde_json::Deserializer::from_str(&printed).into_iter::<serde_json::Value>();
+        assert!(
+            values.into_iter().all(|value| value.is_ok_and(|value| value.is_object())),
+            "{line}: {printed}"
+        );
+    }
 }
 
 #[test]

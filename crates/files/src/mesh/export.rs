@@ -4,15 +4,21 @@
 //! trade; for glTF the radius in metres, as its standard requires. OBJ keeps 15 digits of the largest coordinate and
 //! PLY all of f64; the others are f32. Every file states the direction, the size and the material of its stone, in a
 //! [`Statement`]. OBJ and glTF keep the names of the facets. A solid that is not convex is written by its triangles.
+//! Scenes, their stones with their metal, are written by `scene`.
 
+mod glb;
 mod ply;
+mod scene;
+
+pub use scene::{write_scene_glb, write_scene_obj, write_scene_ply, write_scene_stl};
 
 use super::file::{MaterialHint, STL_HEADER, Statement};
 use brillianteer_cut::MaterialRef;
 use brillianteer_math::{Surface, rounded, triangulate};
 use brillianteer_scene::Body;
 use glam::DVec3;
-use serde_json::{Value, json};
+use glb::{Buffers, Primitive, UPRIGHT, asset, material_json, used};
+use serde_json::json;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
@@ -33,12 +39,6 @@ const LONGEST: usize = 400;
 
 /// The number of millimetres in glTF's unit, the metre.
 const METRE: f64 = 1000.0;
-
-/// glTF's codes for numbers of f32 and of u32, and for the two purposes of buffer views.
-const F32: u32 = 5126;
-const U32: u32 = 5125;
-const VERTICES: u32 = 34962;
-const INDICES: u32 = 34963;
 
 /// The number of steps into which a quarter of a turn of a smooth surface is cut.
 pub const FINENESS: usize = 24;
@@ -145,6 +145,15 @@ fn decimals(largest: f64) -> usize {
 pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
     let all = faces(body);
     let statement = all.statement(DVec3::Z, 1.0, scale, material).text(STL_HEADER);
+    let mut bytes = stl(&all, scale)?;
+    if let Some(statement) = statement {
+        bytes[..statement.len()].copy_from_slice(statement.as_bytes());
+    }
+    Ok(bytes)
+}
+
+/// Encodes faces as binary STL with an empty header.
+fn stl(all: &Faces<'_>, scale: f64) -> std::io::Result<Vec<u8>> {
     let Faces { faces, vertices } = all;
     let vector = |v: DVec3| stl_io::Vector::new(v.as_vec3().to_array());
     let triangle = |face: &Face, corners: [u32; 3]| stl_io::Triangle {
@@ -155,9 +164,6 @@ pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std
     let triangles: Vec<stl_io::Triangle> = each.collect();
     let mut bytes = vec![];
     stl_io::write_stl(&mut bytes, triangles.iter())?;
-    if let Some(statement) = statement {
-        bytes[..statement.len()].copy_from_slice(statement.as_bytes());
-    }
     Ok(bytes)
 }
 
@@ -199,7 +205,8 @@ pub fn write_glb(
     scale: f64,
     (hint, material): (&MaterialHint, Option<&MaterialRef>),
 ) -> Result<Vec<u8>, gltf::Error> {
-    let mut parts = Parts::default();
+    let mut parts = Buffers::default();
+    let mut primitives = vec![];
     let all = faces(body);
     let statement = all.statement(DVec3::Y, METRE, scale, material).text(LONGEST);
     let Faces { faces, vertices } = all;
@@ -209,127 +216,20 @@ pub fn write_glb(
         let primitive = if face.name.is_some() { &mut own } else { &mut nameless };
         primitive.add(&face, &vertices, scale);
         if let Some(name) = face.name {
-            parts.primitive(Some(name), &own);
+            primitives.push(parts.primitive(Some(name), &own, 0));
         }
     }
     if !nameless.triangles.is_empty() {
-        parts.primitive(None, &nameless);
+        primitives.push(parts.primitive(None, &nameless, 0));
     }
-    let Parts { bin, views, accessors, primitives } = parts;
-    // A quarter turn about x makes y up out of z up.
-    let half = std::f64::consts::FRAC_1_SQRT_2;
-    let root = json!({
-        "asset": { "version": "2.0", "generator": "Brillianteer" },
+    let content = json!({
+        "asset": asset(),
         "scene": 0,
         "scenes": [{ "name": name, "nodes": [0] }],
-        "nodes": [{ "name": name, "mesh": 0, "rotation": [-half, 0.0, 0.0, half],
-            "extras": { STATEMENT: statement } }],
+        "nodes": [{ "name": name, "mesh": 0, "rotation": UPRIGHT, "extras": { STATEMENT: statement } }],
         "meshes": [{ "name": name, "primitives": primitives }],
         "materials": [material_json(hint, scale)],
-        "extensionsUsed": used(hint),
-        "buffers": [{ "byteLength": bin.len() }],
-        "bufferViews": views,
-        "accessors": accessors,
+        "extensionsUsed": used(&material_json(hint, scale)),
     });
-    let header = gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
-    let json = root.to_string().into_bytes();
-    gltf::Glb { header, json: json.into(), bin: Some(bin.into()) }.to_vec()
-}
-
-#[derive(Default)]
-struct Parts {
-    bin: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
-    primitives: Vec<Value>,
-}
-
-/// Corners, each with its normal, and triangles by the indices of their corners.
-#[derive(Default)]
-struct Primitive {
-    corners: Vec<DVec3>,
-    normals: Vec<DVec3>,
-    triangles: Vec<u32>,
-}
-
-impl Primitive {
-    fn add(&mut self, face: &Face, vertices: &[DVec3], scale: f64) {
-        let first = self.corners.len();
-        let place = |v: &u32| (first + face.corners.iter().position(|o| o == v).unwrap_or_default()) as u32;
-        self.triangles.extend(face.triangles.iter().flatten().map(place));
-        self.corners.extend(face.corners.iter().map(|&v| vertices[v as usize] * scale));
-        self.normals.extend(&face.normals);
-    }
-}
-
-impl Parts {
-    fn primitive(&mut self, name: Option<&str>, shape: &Primitive) {
-        let Primitive { corners, normals, triangles } = shape;
-        let floats = |v: DVec3| v.as_vec3().to_array();
-        let places: Vec<[f32; 3]> = corners.iter().map(|&v| floats(v)).collect();
-        let low = places.iter().fold([f32::INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].min(b[i])));
-        let high = places.iter().fold([f32::NEG_INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
-        let bytes =
-            |list: &[[f32; 3]]| list.iter().flatten().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
-        let position = self.view(&bytes(&places), VERTICES);
-        self.accessors.push(json!({ "bufferView": position, "componentType": F32, "count": places.len(),
-            "type": "VEC3", "min": low, "max": high }));
-        let normals: Vec<[f32; 3]> = normals.iter().map(|&v| floats(v)).collect();
-        let normals = self.view(&bytes(&normals), VERTICES);
-        self.accessors.push(json!({ "bufferView": normals, "componentType": F32, "count": places.len(),
-            "type": "VEC3" }));
-        let numbers: Vec<u8> = triangles.iter().flat_map(|i| i.to_le_bytes()).collect();
-        let order = self.view(&numbers, INDICES);
-        self.accessors.push(json!({ "bufferView": order, "componentType": U32, "count": triangles.len(),
-            "type": "SCALAR" }));
-        let attributes = json!({ "POSITION": position, "NORMAL": normals });
-        let mut primitive = json!({ "attributes": attributes, "indices": order, "material": 0 });
-        if let Some(name) = name {
-            primitive["extras"] = json!({ FACET: name });
-        }
-        self.primitives.push(primitive);
-    }
-
-    /// Adds a buffer view, and returns its number, which its accessor has as well.
-    fn view(&mut self, bytes: &[u8], target: u32) -> usize {
-        self.views.push(json!({ "buffer": 0, "byteOffset": self.bin.len(), "byteLength": bytes.len(),
-            "target": target }));
-        self.bin.extend(bytes);
-        self.views.len() - 1
-    }
-}
-
-/// Returns a material in the form of glTF. Renderers that trace no rays use `thickness`, in units of the file, as the
-/// length of the path inside.
-fn material_json(hint: &MaterialHint, thickness: f64) -> Value {
-    let mut extensions = serde_json::Map::new();
-    let mut extend = |name: &str, value: Value| extensions.insert(format!("KHR_materials_{name}"), value);
-    if hint.transmits {
-        extend("transmission", json!({ "transmissionFactor": 1.0 }));
-        // A thickness above 0 means that the surface bounds a volume.
-        let volume = match hint.attenuation {
-            Some((colour, distance)) => {
-                json!({ "thicknessFactor": thickness, "attenuationColor": colour, "attenuationDistance": distance })
-            }
-            None => json!({ "thicknessFactor": thickness }),
-        };
-        extend("volume", volume);
-    }
-    if let Some(ior) = hint.ior {
-        extend("ior", json!({ "ior": ior }));
-    }
-    if let Some(dispersion) = hint.dispersion {
-        extend("dispersion", json!({ "dispersion": dispersion }));
-    }
-    json!({
-        "name": hint.name,
-        "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.0 },
-        "extensions": extensions,
-    })
-}
-
-fn used(hint: &MaterialHint) -> Vec<String> {
-    let value = material_json(hint, 1.0);
-    let names = value["extensions"].as_object().map(|map| map.keys().cloned().collect());
-    names.unwrap_or_default()
+    parts.encoded(content)
 }

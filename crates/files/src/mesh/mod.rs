@@ -10,7 +10,7 @@
 //! 4. `design` makes a stone of the facets ([`cut::from_mesh`](brillianteer_cut::from_mesh)), or of the triangles where the solid is
 //!    not convex, and collects notes and warnings.
 //!
-//! `export` writes stones as meshes. `metal` reads meshes of opaque bodies, which need not be closed.
+//! `export` writes stones and scenes as meshes. `metal` reads meshes of opaque bodies, which need not be closed.
 
 mod design;
 mod export;
@@ -25,6 +25,7 @@ mod trials;
 
 pub use design::{read, read_bodies, upward};
 pub use export::{FINENESS, Stated, stated_in_stl, write_glb, write_obj, write_ply, write_stl};
+pub use export::{write_scene_glb, write_scene_obj, write_scene_ply, write_scene_stl};
 pub use file::{MAX_BYTES, MaterialHint, MeshFile, looks_like, parse};
 pub use metal::{read_shaded, write_shaded};
 pub use parts::MeshBody;

@@ -18,6 +18,7 @@ const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> {
     let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     file.rewind().map_err(damaged)?;
+    check_sampling(&meta.headers)?;
     // The decoder makes room for one layer only, but reads the tables of all.
     for header in &meta.headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64, bytes)?;
@@ -32,6 +33,21 @@ pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> 
     let (panorama, cut) = in_window(header, pixels(file, header, &colours)?);
     warnings.extend(cut);
     Ok((panorama, warnings))
+}
+
+/// Refuses channels with fewer samples than pixels, which the decoder does not read, also where the picture has none of them.
+fn check_sampling(headers: &[Header]) -> Result<(), Fault> {
+    let channels = || headers.iter().flat_map(|header| &header.channels.list);
+    let is_sparse = |Vec2(x, y): Vec2<usize>| x > 1 || y > 1;
+    let Some(first) = channels().find(|channel| is_sparse(channel.sampling)) else { return Ok(()) };
+    let Vec2(across, down) = first.sampling;
+    let others = channels().filter(|channel| is_sparse(channel.sampling)).count() - 1;
+    let others = if others > 0 { format!(", and {others} more channels like it") } else { String::new() };
+    let name = first.name.to_string();
+    Err(Fault::whole(format!(
+        "its channel '{name:.60}' has one sample for {across} by {down} pixels{others}, which is not read; save it as RGB, with all \
+         channels of full size"
+    )))
 }
 
 /// The width of a layer and its pixels, row by row from the top.

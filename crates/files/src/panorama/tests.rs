@@ -396,6 +396,30 @@ fn colours_and_factors_of_radiance_are_those_that_its_header_states() {
 }
 
 #[test]
+fn an_exr_with_sparse_channels_is_refused_by_the_name_of_the_first() {
+    let folder = tempfile::tempdir().unwrap();
+    for (width, sparse, named) in [
+        (64, &b"B"[..], "channel 'B' has one sample for 2 by 2 pixels, which"),
+        (64, b"BR", "channel 'B' has one sample for 2 by 2 pixels, and 1 more channels like it, which"),
+        // The decoder takes such a picture for a damaged one.
+        (63, b"A", "channel 'A' has one sample for 2 by 2 pixels, which"),
+    ] {
+        let mut file = exr_file(&folder, width, 32);
+        for name in sparse {
+            // A channel's name and its type f32, then four bytes before both steps between samples.
+            let entry = [*name, 0, 2, 0, 0, 0];
+            let found = file.windows(entry.len()).position(|part| part == entry).unwrap() + entry.len() + 4;
+            [found, found + 4].into_iter().for_each(|place| file[place] = 2);
+        }
+        let told = read(&at(&folder, &file)).unwrap_err().to_string();
+        assert!(
+            told.contains(named) && told.contains("; save it as RGB, with all channels of full size"),
+            "{told}"
+        );
+    }
+}
+
+#[test]
 fn what_a_decoder_gives_up_on_is_told_in_plain_words() {
     let folder = tempfile::tempdir().unwrap();
     let spoilt = |mut file: Vec<u8>, at: usize| {
