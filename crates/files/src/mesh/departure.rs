@@ -19,6 +19,9 @@ const MEANT: f64 = 0.03;
 /// more than 5, and it may be twice as large in one direction as in the mean of all.
 const FARTHEST: f64 = 4.0;
 
+/// The distance, as a part of the size, by which rounding moves corners at most.
+const ROUNDING: f64 = 1e-5;
+
 /// What is told of the departure of a stone from its mesh.
 pub(super) enum Departure {
     Note(String),
@@ -32,7 +35,8 @@ pub(super) fn departure(found: &Faceted, made: &FromMesh) -> Option<Departure> {
     let told = found.change.map_or(0.0, |change| change.volume);
     let noise = SAME * found.tolerance * found.surface.area() / found.surface.volume();
     let is_swollen = (made.volume_excess - told).abs() > VOLUME + noise;
-    let is_far = is_scan && made.deviation > FARTHEST * made.pose.scale * found.tolerance;
+    let farthest = (FARTHEST * found.tolerance).max(ROUNDING * found.surface.size());
+    let is_far = is_scan && made.deviation > made.pose.scale * farthest;
     let volume = format!("{} %", signed(100.0 * made.volume_excess, 3));
     let figures = format!(
         "its volume departs from the mesh's by {volume}, and the mesh's farthest corner lies {} girdle radii from its surface",
