@@ -62,7 +62,7 @@ fn spread(planes: &[Plane], classes: &[Class], count: usize) -> Figures {
 /// Returns the classes of the largest number of turns that carry each class onto itself, the steepest first; `None` where no turn does, or
 /// where there is only one class.
 fn classes(planes: &[Plane], tier: &[usize]) -> Option<Vec<Class>> {
-    let turns = (2..=MOST_TURNS).rev().filter(|turns| tier.len() % turns == 0);
+    let turns = (2..=MOST_TURNS).rev().filter(|turns| tier.len().is_multiple_of(*turns));
     let places = turns.into_iter().find_map(|turns| orbits(planes, tier, turns))?;
     if places.len() < 2 {
         return None;
@@ -112,7 +112,7 @@ mod tests {
         let scatter = |k: usize| 0.4 * (12.9898 * (k * k) as f64 + 4.1 * k as f64).sin();
         let main = |k: usize| facet(139.25 + scatter(k), 45.0 * k as f64 + scatter(k + 3), 0.698);
         let lower = |k: usize| {
-            let side = if k % 2 == 0 { 11.25 } else { 33.75 };
+            let side = if k.is_multiple_of(2) { 11.25 } else { 33.75 };
             facet(180.0 - lower_deg + scatter(k + 1), 45.0 * (k / 2) as f64 + side, depth)
         };
         (0..8).map(main).chain((0..16).map(lower)).collect()
