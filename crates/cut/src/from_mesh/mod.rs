@@ -5,6 +5,7 @@
 //! through a bezel or another facet of the crown that is its own mirror image. A long stone's width lies along x.
 
 mod aim;
+mod azimuth_classes;
 mod cues;
 mod error;
 mod even;
@@ -41,6 +42,8 @@ pub struct FromMesh {
     pub pose: Pose,
     /// The distance from the stone of the surface's corner that is farthest off, girdle radii.
     pub deviation: f64,
+    /// By how much the stone's volume exceeds that of the surface, as a part of the latter; negative where it is less.
+    pub volume_excess: f64,
     /// The symmetry that was given to the planes, because they had it except for noise; [`Symmetry::NONE`] where they
     /// were left as found.
     pub evened: Symmetry,
@@ -128,6 +131,7 @@ fn posed(found: &Faceted, up: Up, evening: Evening) -> Result<Made, FromMeshErro
         facets,
         pose,
         deviation: deviation(&polytope, &points),
+        volume_excess: polytope.volume() / (pose.scale.powi(3) * found.surface.volume()) - 1.0,
         evened: even.symmetry(upright.turn),
         up: axis,
         doubt,

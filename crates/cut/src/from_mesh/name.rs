@@ -1,6 +1,7 @@
 //! Puts facets into the order of the trade, tier by tier, and gives them the names that follow from their places.
 
 use super::super::names;
+use super::azimuth_classes;
 use super::outline::LEAST_UPRIGHT;
 use brillianteer_math::{Plane, grouped};
 use std::f64::consts::TAU;
@@ -77,7 +78,8 @@ fn parts(planes: &[Plane], table: Option<usize>, noise: f64) -> (Vec<Tier>, Tier
     (crown, girdle, pavilion)
 }
 
-/// Groups facets into tiers of similar slope and offset, the steepest first.
+/// Groups facets into tiers of similar slope and offset, the steepest first. Those that noise alone joins are told apart by their classes of
+/// azimuth.
 fn tiers(planes: &[Plane], mut places: Vec<usize>, noise: f64) -> Vec<Tier> {
     let level = |i: usize| planes[i].normal.z.abs().min(1.0).acos();
     let offset = |i: usize| planes[i].offset;
@@ -88,7 +90,9 @@ fn tiers(planes: &[Plane], mut places: Vec<usize>, noise: f64) -> Vec<Tier> {
     let same = |&first: &usize, &place: &usize| {
         (level(first) - level(place)).abs() < slope && (offset(first) - offset(place)).abs() < shift
     };
-    let mut tiers: Vec<Tier> = grouped(places, same);
+    let joined: Vec<Tier> = grouped(places, same);
+    let apart = |tier: Tier| azimuth_classes::divided(planes, &tier, [SAME_SLOPE, SAME_OFFSET]);
+    let mut tiers: Vec<Tier> = joined.into_iter().flat_map(apart).collect();
     tiers.iter_mut().for_each(|tier| by_azimuth(planes, tier));
     tiers
 }

@@ -1,5 +1,6 @@
 //! Makes stones from meshes: a convex stone becomes planes, any other triangles.
 
+use super::departure::{Departure, departure};
 use super::file::{self, MaterialHint, MeshFile, MeshFormat, Statement};
 use super::parts::{ChosenPart, MeshBody};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful, usual_up};
@@ -260,6 +261,7 @@ impl File {
         let surface = found.surface.moved(found.centre);
         let up = self.place.up(&surface, || directions(&found.polytope), &mut remarks);
         let made = from_mesh(found, up, self.evening).map_err(Fault::whole)?;
+        let departs = departure(found, &made);
         let FromMesh { mut facets, pose, errors, .. } = made;
         // A known size goes before the width that was found.
         let scale = self.place.scale.unwrap_or(pose.scale);
@@ -272,6 +274,11 @@ impl File {
             at_most(deviation)
         ));
         remarks.notes.extend(known_to(&errors));
+        match departs {
+            Some(Departure::Note(note)) => remarks.notes.push(note),
+            Some(Departure::Warning(warning)) => remarks.warnings.push(warning),
+            None => {}
+        }
         remarks.warnings.extend(found.is_uncertain.then(|| UNCERTAIN.to_owned()));
         remarks.warnings.extend(bent(&errors));
         remarks.warnings.extend(made.table_part.as_ref().map(divided));
@@ -444,6 +451,9 @@ mod tests {
         );
         let faceted = open(heart, MeshForm::Faceted).unwrap();
         assert!(matches!(faceted.design.cut, Cut::Planes(_)));
+        let told = faceted.warnings.join("; ");
+        assert!(told.contains("the convex stone around the mesh") && told.contains(" facets, "), "{told}");
+        assert!(told.contains("its volume departs from the mesh's by +"), "{told}");
         let [before, after] = [found, faceted].map(|b| {
             let solid = Specimen::new(b.design).unwrap();
             let (low, high) = solid.solid().bounds();

@@ -12,6 +12,7 @@
 //!
 //! `export` writes stones and scenes as meshes. `metal` reads meshes of opaque bodies, which need not be closed.
 
+mod departure;
 mod design;
 mod export;
 mod file;

@@ -4,8 +4,8 @@ use super::change::Change;
 use super::deviation::outermost;
 use super::hull::Hull;
 use super::scan;
-use super::search::MatchingSolid;
-use crate::{Plane, Surface};
+use super::search::{MatchingSolid, SAME, facet_of_triangles};
+use crate::{Plane, Polytope, Surface};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -53,15 +53,21 @@ pub(super) enum Trust {
     OfNoise,
 }
 
-/// Returns how far the facets of a solid that reproduces a surface can be trusted.
+/// Returns how far the facets of a solid that reproduces a surface can be trusted. `is_hull` is true where it is the hull of a surface that
+/// is not convex.
 ///
 /// A scan has many corners within facets, and a model has none there: its corners are where facets meet. The number of corners for each
 /// facet does not tell, for there are the more facets the more of them are false.
-pub(super) fn trust(surface: &Surface, solid: &MatchingSolid) -> Trust {
+pub(super) fn trust(surface: &Surface, solid: &MatchingSolid, is_hull: bool) -> Trust {
+    if solid.errors.is_some() || surface.vertices.len() < scan::FEWEST {
+        return Trust::Known;
+    }
     let is_rounded = solid.deviation <= ROUNDING * surface.size();
-    let is_known = solid.errors.is_some() || is_rounded || surface.vertices.len() < scan::FEWEST;
-    if is_known || !(is_noisy(surface) || is_unexplained(surface, solid)) {
-        Trust::Known
+    let is_known = is_rounded || !(is_noisy(surface) || is_unexplained(surface, solid));
+    if is_known && !are_across(surface, solid, is_hull) {
+        // Each corner of a model is one of its stone, unless noise hides a facet beside it.
+        let hides = !is_rounded && part_on_fewer(surface, solid, 3) > WITHIN;
+        if hides { Trust::Uncertain } else { Trust::Known }
     } else if surface.vertices.len() >= FEWEST_OF_NOISE && has_corners_within(surface, solid) {
         Trust::OfNoise
     } else {
@@ -82,20 +88,50 @@ fn is_unexplained(surface: &Surface, solid: &MatchingSolid) -> bool {
         || facets.len() as f64 > UNEXPLAINED_FACETS * planes.len() as f64
 }
 
+/// Returns whether triangles across the edges of the stone may have made facets of a solid: in a surface with corners within facets,
+/// those whose corners all lie on others. Some of a hull may be; of a solid that reproduces the triangles, what is more than bevels of all
+/// edges and corners between the other facets.
+fn are_across(surface: &Surface, solid: &MatchingSolid, is_hull: bool) -> bool {
+    let planes: Vec<Plane> = solid.polytope.planes().collect();
+    let near = SAME * solid.tolerance;
+    let only = |at: &DVec3| {
+        let mut on = (0..planes.len()).filter(|&f| planes[f].distance(*at).abs() <= near);
+        on.next().filter(|_| on.next().is_none())
+    };
+    let mut has_own = vec![false; planes.len()];
+    let own: Vec<Option<usize>> = surface.vertices.par_iter().map(only).collect();
+    own.into_iter().flatten().for_each(|facet| has_own[facet] = true);
+    let others: Vec<Plane> = planes.iter().zip(&has_own).filter(|(_, own)| **own).map(|(p, _)| *p).collect();
+    let bare = (planes.len() - others.len()) as f64;
+    if bare <= UNEXPLAINED_FACETS * planes.len() as f64 || !has_corners_within(surface, solid) {
+        return false;
+    }
+    is_hull || Polytope::from_planes(&others).is_ok_and(|rest| bare > bevels(&rest) as f64)
+}
+
+/// Returns the number of the edges and corners of a solid, each of which may have a bevel.
+fn bevels(solid: &Polytope) -> usize {
+    solid.facets().iter().map(|facet| facet.outline.len()).sum::<usize>() / 2 + solid.vertices().len()
+}
+
 /// Returns whether more corners of a surface lie within the facets of a solid than a model has there.
 fn has_corners_within(surface: &Surface, solid: &MatchingSolid) -> bool {
-    let planes: Vec<Plane> = solid.polytope.planes().collect();
-    let middle = |t: usize| surface.corners(t).iter().sum::<DVec3>() / 3.0;
-    let on: Vec<usize> =
-        (0..surface.triangles.len()).into_par_iter().map(|t| outermost(&planes, middle(t)).0).collect();
-    let mut facets: Vec<Option<usize>> = vec![None; surface.vertices.len()];
-    let mut is_within = vec![true; surface.vertices.len()];
-    for (facet, v) in
-        on.iter().zip(&surface.triangles).flat_map(|(f, t)| t.iter().map(move |&v| (*f, v as usize)))
-    {
-        is_within[v] &= *facets[v].get_or_insert(facet) == facet;
+    part_on_fewer(surface, solid, 2) > WITHIN
+}
+
+/// Returns the part of a surface's corners whose triangles lie on fewer facets of a solid than a number: 2 for corners within facets, 3 for
+/// those on edges as well.
+fn part_on_fewer(surface: &Surface, solid: &MatchingSolid, least: usize) -> f64 {
+    let mut on: Vec<Vec<u32>> = vec![vec![]; surface.vertices.len()];
+    for (facet, t) in facet_of_triangles(surface, &solid.polytope).into_iter().zip(&surface.triangles) {
+        for &v in t {
+            let known = &mut on[v as usize];
+            if known.len() < least && !known.contains(&facet) {
+                known.push(facet);
+            }
+        }
     }
-    is_within.iter().filter(|within| **within).count() as f64 > WITHIN * is_within.len() as f64
+    on.iter().filter(|on| on.len() < least).count() as f64 / on.len() as f64
 }
 
 /// The reason why a surface is not read as a convex solid between planes.

@@ -1,5 +1,6 @@
 //! Searches for the solid that reproduces a surface, between the planes of regions, at growing tolerances.
 
+use super::cover;
 use super::deviation::deviation;
 use super::deviation::outermost;
 use super::fit::PlaneFit;
@@ -111,6 +112,12 @@ impl<'a> SolidSearch<'a> {
         Some(best)
     }
 
+    /// Returns the solid on whose facets all corners lie, where triangles lie across its edges; `trusted` is what [`Self::exact`] found, if
+    /// it can be trusted.
+    pub fn covering(&self, trusted: Option<&MatchingSolid>) -> Option<MatchingSolid> {
+        cover::covering(self.surface, &self.edges, trusted)
+    }
+
     /// Returns the hull, where the surface is meant to be its hull.
     pub fn meant(&self) -> Option<MatchingSolid> {
         self.hull()?.meant(self.surface)
@@ -120,11 +127,7 @@ impl<'a> SolidSearch<'a> {
     fn of_scan(&self, scan: ScannedSolid) -> MatchingSolid {
         let ScannedSolid { polytope, deviation, noise, errors, are_bent } = scan;
         let planes: Vec<Plane> = polytope.planes().collect();
-        let middle = |t: usize| self.surface.corners(t).iter().sum::<DVec3>() / 3.0;
-        let of = (0..self.surface.triangles.len())
-            .into_par_iter()
-            .map(|t| outermost(&planes, middle(t)).0 as u32)
-            .collect();
+        let of = facet_of_triangles(self.surface, &polytope);
         let fit = |f: &Facet| PlaneFit {
             plane: f.plane,
             area: polytope.facet_area(f),
@@ -188,6 +191,14 @@ impl<'a> SolidSearch<'a> {
             Err(found)
         }
     }
+}
+
+/// Returns for each triangle the facet that its middle is farthest outside of.
+pub(super) fn facet_of_triangles(surface: &Surface, solid: &Polytope) -> Vec<u32> {
+    let planes: Vec<Plane> = solid.planes().collect();
+    let middle = |t: usize| surface.corners(t).iter().sum::<DVec3>() / 3.0;
+    let facet = |t| outermost(&planes, middle(t)).0 as u32;
+    (0..surface.triangles.len()).into_par_iter().map(facet).collect()
 }
 
 /// Returns whether some neighbouring facets differ in direction by no more than noise could turn the halves of one

@@ -100,6 +100,33 @@ fn what_has_no_facets_is_curved_or_concave_or_has_noise_that_may_hide_them() {
     }
 }
 
+/// Corners spread over a stone by directions, without regard to its edges, and triangles between them; `step` is that of rounding.
+fn spread_over(stone: &crate::Polytope, count: u32, step: f64) -> Surface {
+    let ball = round(count, 0.0);
+    let reach = |d: &DVec3| {
+        let far = stone.planes().map(|p| p.offset / p.normal.dot(*d)).filter(|far| *far > 0.0);
+        let at = *d * far.fold(f64::INFINITY, f64::min);
+        if step > 0.0 { (at / step).round() * step } else { at.as_vec3().as_dvec3() }
+    };
+    Surface::new(ball.vertices.iter().map(reach).collect(), ball.triangles)
+}
+
+#[test]
+fn triangles_across_the_edges_of_a_mesh_without_noise_make_no_facets() {
+    for (sides, count, step) in [(6, 3000, 0.0), (8, 8000, 0.0), (8, 8000, 1e-5), (11, 12_000, 1e-6)] {
+        let original = stone(sides);
+        let spread = spread_over(&original, count, step).mend().unwrap().surface;
+        let found = faceted(spread);
+        assert_eq!(found.faces.len(), original.facets().len(), "{sides} sides, {count} corners, step {step}");
+        assert!(!found.is_uncertain && (found.polytope.volume() / original.volume() - 1.0).abs() < 1e-4);
+    }
+    // The hull of such corners has hundreds of facets besides, of which no stone can be told.
+    let few = spread_over(&stone(12), 300, 0.0).mend().unwrap().surface;
+    if let SurfaceKind::Convex(found) = facets(few) {
+        assert!(found.is_uncertain || found.faces.len() == stone(12).facets().len(), "{}", found.faces.len());
+    }
+}
+
 #[test]
 fn groups_that_are_facets_lend_them_their_names() {
     let found = faceted(surface(&stone(6)).mend().unwrap().surface);
