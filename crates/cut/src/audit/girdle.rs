@@ -15,11 +15,12 @@ pub const UNEVEN_GIRDLE: f64 = 0.5;
 pub(super) fn uneven(subject: &Subject, corners: &Corners) -> Vec<Finding> {
     [TierZone::Crown, TierZone::Pavilion]
         .into_iter()
-        .filter_map(|side| edge(subject, corners, side))
+        .filter_map(|side| uneven_edge(subject, corners, side))
         .collect()
 }
 
-fn edge(subject: &Subject, corners: &Corners, side: TierZone) -> Option<Finding> {
+/// Returns a finding where the meets of one edge lie at different heights.
+fn uneven_edge(subject: &Subject, corners: &Corners, side: TierZone) -> Option<Finding> {
     let is_meet = |corner: &&Corner| {
         let of = |zone| corner.facets.iter().filter(|&&facet| subject.zones[facet] == zone).count();
         of(TierZone::Girdle) > 0 && of(side) > 1

@@ -2,13 +2,13 @@
 
 use super::finding::{Finding, FindingKind, FindingUnit};
 use super::subject::Subject;
-use crate::{TierZone, Tiers};
+use crate::{Outline, TierZone, Tiers};
 use brillianteer_math::{Plane, grouped};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// A facet whose image lies further than this from every facet, in percent of the width at the girdle, departs from the
-/// symmetry: about a tenth of a degree.
+/// The distance, in percent of the width at the girdle, up to which an image and a facet count as one: about a tenth of
+/// a degree. A facet departs where fewer than half of its images are facets.
 pub const OFF_SYMMETRY: f64 = 0.1;
 
 /// A symmetry that the file does not state counts as intended where at least this part of the facets keeps it.
@@ -61,12 +61,9 @@ struct Planes {
 
 impl Planes {
     fn of(subject: &Subject) -> Self {
-        // Planes are taken about the middle of the girdle, so that a lean shifts a plane by no more than it does
-        // within the stone.
         let outline = &subject.outline;
-        let middle = outline.middle.extend(0.5 * (outline.girdle_bottom + outline.girdle_top));
-        let seen = |plane: Plane| Plane { offset: plane.offset - plane.normal.dot(middle), ..plane };
-        let mut sorted: Vec<Plane> = subject.given.stone.planes().map(seen).collect();
+        let mut sorted: Vec<Plane> =
+            subject.given.stone.planes().map(|plane| about_middle(outline, plane)).collect();
         sorted.sort_by(|a, b| a.normal.z.total_cmp(&b.normal.z));
         Self { sorted, width: outline.width, slack: slack(subject.given.tiers) }
     }
@@ -77,11 +74,16 @@ impl Planes {
         100.0 * lean.max((a.offset - b.offset).abs() / self.width)
     }
 
+    /// Returns the planes that may lie at most this far from an image, in percent of the width.
+    fn near(&self, image: &Plane, most: f64) -> impl Iterator<Item = &Plane> {
+        let reach = 2.0 * most / 100.0;
+        let height = image.normal.z;
+        let first = self.sorted.partition_point(|plane| plane.normal.z < height - reach);
+        self.sorted[first..].iter().take_while(move |plane| plane.normal.z <= height + reach)
+    }
+
     fn has(&self, image: &Plane) -> bool {
-        let reach = 2.0 * self.slack / 100.0;
-        let first = self.sorted.partition_point(|plane| plane.normal.z < image.normal.z - reach);
-        let near = self.sorted[first..].iter().take_while(|plane| plane.normal.z <= image.normal.z + reach);
-        near.into_iter().any(|plane| self.apart(plane, image) <= self.slack)
+        self.near(image, self.slack).any(|plane| self.apart(plane, image) <= self.slack)
     }
 
     /// Returns the part of the planes whose image is a plane of the stone.
@@ -99,14 +101,12 @@ impl Planes {
     /// Returns the distance of an image from the nearest plane of the stone, in percent of the width; infinite where
     /// none is near.
     fn to_nearest(&self, image: &Plane) -> f64 {
-        let reach = 2.0 * FAR * self.slack / 100.0;
-        let first = self.sorted.partition_point(|plane| plane.normal.z < image.normal.z - reach);
-        let near = self.sorted[first..].iter().take_while(|plane| plane.normal.z <= image.normal.z + reach);
+        let near = self.near(image, FAR * self.slack);
         near.map(|plane| self.apart(plane, image)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the greatest distance of the nearer half of a plane's images from planes of the stone, in percent of
-    /// the width: above the slack where the plane [`departs`](Self::departs).
+    /// Returns the median distance (the lower of two) of a plane's images from planes of the stone, in percent of the
+    /// width: above the slack exactly where the plane [`departs`](Self::departs).
     fn usual_departure(&self, plane: &Plane, maps: &[Map]) -> f64 {
         let mut all: Vec<f64> = maps.iter().map(|map| self.to_nearest(&map.image(plane))).collect();
         all.sort_by(f64::total_cmp);
@@ -121,6 +121,12 @@ impl Planes {
         };
         maps.iter().map(|map| nearest(map.image(plane))).fold(0.0, f64::max)
     }
+}
+
+/// Returns a plane about the middle of the girdle, so that a lean shifts it by no more than it does within the stone.
+fn about_middle(outline: &Outline, plane: Plane) -> Plane {
+    let middle = outline.middle.extend(0.5 * (outline.girdle_bottom + outline.girdle_top));
+    Plane { offset: plane.offset - plane.normal.dot(middle), ..plane }
 }
 
 /// Returns the greatest distance of an image from a plane that counts as kept, in percent of the width. Where the
@@ -154,12 +160,7 @@ pub(super) fn departures(subject: &Subject) -> Vec<Finding> {
     if maps.is_empty() {
         return vec![];
     }
-    let seen = |facet: usize| {
-        let Plane { normal, offset } = subject.facets()[facet].plane;
-        let outline = &subject.outline;
-        let middle = outline.middle.extend(0.5 * (outline.girdle_bottom + outline.girdle_top));
-        Plane { normal, offset: offset - normal.dot(middle) }
-    };
+    let seen = |facet: usize| about_middle(&subject.outline, subject.facets()[facet].plane);
     let mut off: Vec<usize> =
         (0..subject.facets().len()).filter(|&facet| planes.departs(&seen(facet), &maps)).collect();
     let mut threshold = planes.slack;
@@ -171,7 +172,7 @@ pub(super) fn departures(subject: &Subject) -> Vec<Finding> {
     }
     let kept = kept_percent(subject, &off);
     if stated.is_some() && kept < MOST_KEEP {
-        return vec![not_found(kept, subject.names(&off))];
+        return vec![stated_symmetry_is_not_kept(kept, subject.names(&off))];
     }
     let finding = |tier: Vec<usize>| Finding {
         kind: if subject.is_girdle(tier[0]) { FindingKind::Outline } else { FindingKind::Symmetry },
@@ -200,7 +201,7 @@ fn kept_percent(subject: &Subject, off: &[usize]) -> f64 {
     100.0 * (1.0 - off as f64 / all.max(1) as f64)
 }
 
-fn not_found(kept: f64, facets: Vec<String>) -> Finding {
+fn stated_symmetry_is_not_kept(kept: f64, facets: Vec<String>) -> Finding {
     Finding {
         kind: FindingKind::StatedSymmetry,
         points: vec![],
@@ -233,7 +234,7 @@ fn found_maps(subject: &Subject, planes: &Planes) -> Vec<Map> {
     maps(turns, mirror)
 }
 
-/// Returns the azimuth of the line in which most facets are mirror images of one another.
+/// Returns the azimuth, radians, of the mirror line that most planes keep; `None` where all facets are level.
 fn best_mirror(subject: &Subject, planes: &Planes) -> Option<f64> {
     let leaning = (0..subject.facets().len())
         .filter(|&facet| !matches!(subject.zones[facet], TierZone::Table | TierZone::Culet));
