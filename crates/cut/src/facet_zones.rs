@@ -32,8 +32,8 @@ impl FacetZones {
         let facets = stone.facets();
         let upright = Leaning::of(facets.iter().map(from_upright));
         let level = Leaning::of(facets.iter().filter(|facet| facet.plane.normal.z > 0.0).map(from_level));
-        let is_design = upright.exact > 0 && upright.limit(false) == EXACT;
-        Self { upright: upright.limit(false), level: level.limit(is_design) }
+        let is_design = upright.exact > 0 && upright.is_exact(false);
+        Self { upright: limit_where(upright.is_exact(false)), level: limit_where(level.is_exact(is_design)) }
     }
 
     /// Returns whether facets that are upright or level lean as those of a measured stone do.
@@ -53,12 +53,16 @@ impl FacetZones {
 
     /// Returns the zone of a facet.
     pub fn zone(&self, facet: &Facet) -> TierZone {
-        match facet.plane.normal.z > 0.0 {
-            _ if self.is_girdle(facet) => TierZone::Girdle,
-            true if self.is_table(facet) => TierZone::Table,
-            true => TierZone::Crown,
-            false if from_level(facet) < self.level => TierZone::Culet,
-            false => TierZone::Pavilion,
+        if self.is_girdle(facet) {
+            TierZone::Girdle
+        } else if self.is_table(facet) {
+            TierZone::Table
+        } else if facet.plane.normal.z > 0.0 {
+            TierZone::Crown
+        } else if from_level(facet) < self.level {
+            TierZone::Culet
+        } else {
+            TierZone::Pavilion
         }
     }
 }
@@ -86,21 +90,28 @@ struct Leaning {
 impl Leaning {
     fn of(sines: impl Iterator<Item = f64>) -> Self {
         let none = Self { exact: 0, others: 0, least: f64::INFINITY };
-        sines.filter(|sine| *sine < MEASURED).fold(none, |found, sine| match sine < EXACT {
-            true => Self { exact: found.exact + 1, ..found },
-            false => Self { others: found.others + 1, least: found.least.min(sine), ..found },
+        sines.filter(|sine| *sine < MEASURED).fold(none, |found, sine| {
+            if sine < EXACT {
+                Self { exact: found.exact + 1, ..found }
+            } else {
+                Self { others: found.others + 1, least: found.least.min(sine), ..found }
+            }
         })
     }
 
-    /// Returns the sine up to which these facets count as upright or level; `is_design` says that other facets of the stone
-    /// are exact.
-    fn limit(&self, is_design: bool) -> f64 {
+    /// Returns whether only those that lean by rounding alone count as upright or level; `is_design` says that other
+    /// facets of the stone are exact.
+    fn is_exact(&self, is_design: bool) -> bool {
         let are_meant = self.least >= MEANT;
-        let is_exact = self.others <= self.exact
+        self.others <= self.exact
             || self.exact > 0 && (is_design || are_meant)
-            || is_design && are_meant && self.others > 1;
-        if is_exact { EXACT } else { MEASURED }
+            || is_design && are_meant && self.others > 1
     }
+}
+
+/// Returns the sine up to which facets count as upright or level, where they are exact or measured.
+fn limit_where(is_exact: bool) -> f64 {
+    if is_exact { EXACT } else { MEASURED }
 }
 
 #[cfg(test)]
