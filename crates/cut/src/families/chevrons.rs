@@ -80,7 +80,7 @@ pub struct StarCrown {
     /// The angle by which the stars turn away from the sides, in radians, on a square.
     pub star_azimuth: f64,
     /// True where the facets of the corners are divided like those of the sides.
-    pub divided_corners: bool,
+    pub has_divided_corners: bool,
 }
 
 impl StarCrown {
@@ -97,7 +97,7 @@ impl StarCrown {
         let (sin, cos) = self.star_azimuth.sin_cos();
         let tip = DVec2::splat(table * cos / (cos + sin)) + DVec2::new(0.0, length - 1.0);
         let [far, near] = [outline.corner_distance(), FRAC_1_SQRT_2 * (tip.x + tip.y)];
-        let part = if self.divided_corners { 0.5 } else { break_height / height };
+        let part = if self.has_divided_corners { 0.5 } else { break_height / height };
         let corner = (far + (near - far) * part) / FRAC_1_SQRT_2;
         let on_break = |x: f64, y: f64| DVec3::new(x, y, break_height);
         let side = on_break(1.0 - width, corner - (1.0 - width));
@@ -108,12 +108,12 @@ impl StarCrown {
         for (tier, tangent, inset, from) in
             [("main_1", self.mains[0], 0.0, 0.0), ("main_2", self.mains[1], width, break_height)]
         {
-            let slope = |along: DVec2| (along * tangent).extend(1.0);
-            quarters.pair(tier, slope(DVec2::X), DVec3::new(1.0 - inset, 0.0, from));
-            quarters.pair(tier, slope(DVec2::Y), DVec3::new(0.0, length - inset, from));
+            let normal = |along: DVec2| (along * tangent).extend(1.0);
+            quarters.pair(tier, normal(DVec2::X), DVec3::new(1.0 - inset, 0.0, from));
+            quarters.pair(tier, normal(DVec2::Y), DVec3::new(0.0, length - inset, from));
         }
         let edge = [outline.side_end().extend(0.0), outline.end_end().extend(0.0)];
-        if self.divided_corners {
+        if self.has_divided_corners {
             quarters.through("corner_1", [edge[0], edge[1], side])?;
             quarters.through("corner_2", [side, end, top])?;
         } else {
@@ -146,7 +146,7 @@ impl Chevrons {
     /// Adds all facets below a girdle of this thickness.
     ///
     /// # Errors
-    /// Adds all facets below a girdle of this thickness.
+    /// Fails with the tier whose planes leave no room.
     pub fn add_to(&self, net: &mut FacetNet, outline: &Rectangle, thickness: f64) -> Result<(), NoRoom> {
         let mut quarters = Quarters { net, inside: -0.5 * thickness };
         let below = |depth: f64| -thickness - depth;

@@ -130,7 +130,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         table: cut[TABLE] / 100.0,
         mains: [MAIN_1, MAIN_2].map(|main| cut[main].to_radians().tan()),
         star_azimuth: cut[STAR_AZIMUTH].to_radians(),
-        divided_corners: false,
+        has_divided_corners: false,
     };
     let pavilion = Chevrons {
         count: cut[CHEVRONS] as usize,

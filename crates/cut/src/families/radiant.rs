@@ -86,7 +86,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
             table,
             mains: [mains[0], mains[1]],
             star_azimuth: cut[STAR_AZIMUTH].to_radians(),
-            divided_corners: true,
+            has_divided_corners: true,
         };
         crown.add_to(&mut net, &outline, -0.5 * thickness)?;
     }
