@@ -9,11 +9,15 @@
 //! 2. In `net`, use a kernel where one fits: `brilliant` (mains, stars and halves on a `Girdle` of any convex
 //!    curve), `steps` (rows parallel to an outline of straight sides), `chevrons`, `alternating`. Or add planes
 //!    through points to a `FacetNet`. Half of the width is 1, the length runs along y, z = 0 is the girdle's upper
-//!    edge. A family that is not convex, as `heart`, makes one half, which its mirror image closes.
+//!    edge. The diameter at the girdle must stay 2 where a corner at the widest place is cut off. A family that is not
+//!    convex, as `heart`, makes one half, which its mirror image closes.
 //! 3. Put it into `FAMILIES` and `GROUPS`, a cut of it with the citation of its numbers into `cuts/`, and that file
 //!    into `CUTS` of `crates/files/src/library.rs`. Panel, help, files, errors and lists read the rows.
-//! 4. The laws of `tests` and `facet_tests` run on every family. Where its numbers count something (mains, rows),
-//!    state there how many facets follow.
+//! 4. The laws of `tests` and `facet_tests` run on every family. They demand a mirror image in x; a family without one
+//!    needs its exception in `tests.rs`. A step or chevron cut stands in `SIDES` of `step_tests.rs`. Counts of families
+//!    stand in README.md, `src/cli/documents.rs` and `moved_numbers.rs`; names of cuts in
+//!    `docs/images/contact-sheet.sh`. Where its numbers count something (mains, rows), state in the tests how many
+//!    facets follow.
 //! 5. State where its usual ranges come from in `range_sources`.
 //!
 //! No proportion is named Length or Width: the panel has rows of these names for the size of stones.
