@@ -8,7 +8,7 @@
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
-use super::steps::{self, Rectangle, StepProfile, StepRows};
+use super::steps::{Rectangle, StepPlaces};
 use super::{rows, step_rows};
 
 const LENGTH: usize = 0;
@@ -23,13 +23,20 @@ const PAVILION_STEP: usize = 8;
 const KEEL: usize = 9;
 const GIRDLE: usize = 10;
 
+const PLACES: StepPlaces = StepPlaces {
+    table: TABLE,
+    crown: [CROWN_ROWS, CROWN, CROWN_STEP],
+    pavilion: [PAVILION_ROWS, PAVILION, PAVILION_STEP],
+    girdle: GIRDLE,
+};
+
 /// The family of the Asscher cut.
 pub static ASSCHER: Family = Family {
     key: "asscher",
     name: "Asscher cut",
     first: FamilyCut::first(&ASSCHER, &[1.0, 22.0, 55.0, 3.0, 38.0, 9.0, 3.0, 46.0, 8.0, 100.0, 3.0]),
     net: Some(net),
-    depth: Some(|cut| profile(cut).depth()),
+    depth: Some(|cut| PLACES.profile(cut, outline(cut).reach()).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.08]),
         step_rows::corner::<CORNER>([16.0, 28.0]),
@@ -46,14 +53,10 @@ pub static ASSCHER: Family = Family {
     ],
 };
 
-/// Returns the rows of crown and pavilion, and the girdle between them.
-fn profile(cut: &FamilyCut) -> StepProfile {
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], cut[LENGTH].min(1.0));
-    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
+fn outline(cut: &FamilyCut) -> Rectangle {
+    Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: cut[KEEL] / 100.0 }
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: cut[KEEL] / 100.0 };
-    steps::net(&outline.sides(), profile(cut))
+    outline(cut).net(cut, &PLACES)
 }

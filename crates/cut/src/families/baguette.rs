@@ -6,7 +6,7 @@
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
-use super::steps::{self, Rectangle, StepProfile, StepRows};
+use super::steps::{Rectangle, StepPlaces};
 use super::{rows, step_rows};
 
 const LENGTH: usize = 0;
@@ -20,13 +20,20 @@ const PAVILION_STEP: usize = 7;
 const KEEL: usize = 8;
 const GIRDLE: usize = 9;
 
+const PLACES: StepPlaces = StepPlaces {
+    table: TABLE,
+    crown: [CROWN_ROWS, CROWN, CROWN_STEP],
+    pavilion: [PAVILION_ROWS, PAVILION, PAVILION_STEP],
+    girdle: GIRDLE,
+};
+
 /// The family of the baguette.
 pub static BAGUETTE: Family = Family {
     key: "baguette",
     name: "Baguette",
     first: FamilyCut::first(&BAGUETTE, &[2.0, 65.0, 1.0, 35.0, 8.0, 2.0, 46.0, 10.0, 100.0, 3.0]),
     net: Some(net),
-    depth: Some(|cut| profile(cut).depth()),
+    depth: Some(|cut| PLACES.profile(cut, outline(cut).reach()).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.5, 3.0]),
         rows::table::<TABLE>([50.0, 75.0]),
@@ -42,14 +49,10 @@ pub static BAGUETTE: Family = Family {
     ],
 };
 
-/// Returns the rows of crown and pavilion, and the girdle between them.
-fn profile(cut: &FamilyCut) -> StepProfile {
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], cut[LENGTH].min(1.0));
-    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
+fn outline(cut: &FamilyCut) -> Rectangle {
+    Rectangle { length: cut[LENGTH], corner: 0.0, keel: cut[KEEL] / 100.0 }
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let outline = Rectangle { length: cut[LENGTH], corner: 0.0, keel: cut[KEEL] / 100.0 };
-    steps::net(&outline.sides(), profile(cut))
+    outline(cut).net(cut, &PLACES)
 }

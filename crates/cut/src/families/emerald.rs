@@ -7,7 +7,7 @@
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
-use super::steps::{self, Rectangle, StepProfile, StepRows};
+use super::steps::{Rectangle, StepPlaces};
 use super::{rows, step_rows};
 
 const LENGTH: usize = 0;
@@ -22,13 +22,20 @@ const PAVILION_STEP: usize = 8;
 const KEEL: usize = 9;
 const GIRDLE: usize = 10;
 
+const PLACES: StepPlaces = StepPlaces {
+    table: TABLE,
+    crown: [CROWN_ROWS, CROWN, CROWN_STEP],
+    pavilion: [PAVILION_ROWS, PAVILION, PAVILION_STEP],
+    girdle: GIRDLE,
+};
+
 /// The family of the emerald cut.
 pub static EMERALD: Family = Family {
     key: "emerald",
     name: "Emerald cut",
     first: FamilyCut::first(&EMERALD, &[1.45, 16.0, 62.0, 3.0, 34.0, 9.0, 3.0, 45.0, 8.0, 100.0, 3.0]),
     net: Some(net),
-    depth: Some(|cut| profile(cut).depth()),
+    depth: Some(|cut| PLACES.profile(cut, outline(cut).reach()).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.2, 1.8]),
         step_rows::corner::<CORNER>([8.0, 24.0]),
@@ -45,14 +52,10 @@ pub static EMERALD: Family = Family {
     ],
 };
 
-/// Returns the rows of crown and pavilion, and the girdle between them.
-fn profile(cut: &FamilyCut) -> StepProfile {
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], cut[LENGTH].min(1.0));
-    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
+fn outline(cut: &FamilyCut) -> Rectangle {
+    Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: cut[KEEL] / 100.0 }
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: cut[KEEL] / 100.0 };
-    steps::net(&outline.sides(), profile(cut))
+    outline(cut).net(cut, &PLACES)
 }

@@ -7,7 +7,7 @@ use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::{FamilyCut, number};
-use super::steps::{self, StepProfile, StepRows, StepSide};
+use super::steps::{self, StepPlaces, StepSide};
 use super::{rows, step_rows};
 use brillianteer_base::Unit;
 use glam::DVec2;
@@ -24,13 +24,20 @@ const PAVILION_STEP: usize = 8;
 const KEEL: usize = 9;
 const GIRDLE: usize = 10;
 
+const PLACES: StepPlaces = StepPlaces {
+    table: TABLE,
+    crown: [CROWN_ROWS, CROWN, CROWN_STEP],
+    pavilion: [PAVILION_ROWS, PAVILION, PAVILION_STEP],
+    girdle: GIRDLE,
+};
+
 /// The family of the hexagon step cut.
 pub static HEXAGON: Family = Family {
     key: "hexagon",
     name: "Hexagon step cut",
     first: FamilyCut::first(&HEXAGON, &[1.4, 120.0, 60.0, 2.0, 34.0, 10.0, 3.0, 45.0, 8.0, 100.0, 3.0]),
     net: Some(net),
-    depth: Some(|cut| profile(cut).depth()),
+    depth: Some(|cut| PLACES.profile(cut, 1.0).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.15, 2.0]),
         Proportion {
@@ -57,13 +64,6 @@ pub static HEXAGON: Family = Family {
     ],
 };
 
-/// Returns the rows of crown and pavilion, and the girdle between them.
-fn profile(cut: &FamilyCut) -> StepProfile {
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], 1.0);
-    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
-}
-
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (length, keel) = (cut[LENGTH], cut[KEEL] / 100.0);
     // This is the length of a point beyond the ends of the straight sides.
@@ -83,5 +83,5 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         to(-point, -1.0, -tip),
         to(point, -1.0, -tip),
     ];
-    steps::net(&sides, profile(cut))
+    steps::net(&sides, PLACES.profile(cut, 1.0))
 }

@@ -191,6 +191,28 @@ impl StepProfile {
     }
 }
 
+/// The places, in the table of a family, of the numbers that make the profile of a step cut.
+#[derive(Debug, Clone, Copy)]
+pub struct StepPlaces {
+    /// The place of the table's width.
+    pub table: usize,
+    /// The places of the crown's count, slope and step.
+    pub crown: [usize; 3],
+    /// The places of the pavilion's count, slope and step.
+    pub pavilion: [usize; 3],
+    /// The place of the girdle's thickness.
+    pub girdle: usize,
+}
+
+impl StepPlaces {
+    /// Returns the rows of crown and pavilion, and the girdle between them. Sides move inward by `reach` in the pavilion.
+    pub fn profile(&self, cut: &FamilyCut, reach: f64) -> StepProfile {
+        let crown = StepRows::of(cut, self.crown, 1.0 - cut[self.table] / 100.0);
+        let pavilion = StepRows::of(cut, self.pavilion, reach);
+        StepProfile { crown, thickness: cut[self.girdle] / 50.0, pavilion, below: 0.0 }
+    }
+}
+
 /// Makes all facets of a step cut.
 ///
 /// # Errors
@@ -219,6 +241,14 @@ impl Rectangle {
     /// Returns half of the shorter side, which is the distance that sides move inward until they meet.
     pub fn reach(&self) -> f64 {
         self.length.min(1.0)
+    }
+
+    /// Makes all facets of a step cut on this outline, whose numbers stand at these places.
+    ///
+    /// # Errors
+    /// Fails with the tier that has no room.
+    pub fn net(&self, cut: &FamilyCut, places: &StepPlaces) -> Result<FacetNet, NoRoom> {
+        net(&self.sides(), places.profile(cut, self.reach()))
     }
 
     /// Returns the sides, counter-clockwise from +x.
