@@ -38,22 +38,43 @@ pub struct Brilliant<'a> {
     pub culet: f64,
 }
 
+/// The heights of a brilliant, in girdle radii.
+struct BrilliantHeights {
+    /// The height of the table above the girdle.
+    crown: f64,
+    /// The depth of the mains' point below the girdle.
+    pavilion: f64,
+}
+
+impl BrilliantHeights {
+    /// Returns the heights of a cut whose first three rows from `place` on are those of
+    /// [`brilliant_rows`](super::brilliant_rows). Both angles are those of facets at a distance of `reach` from the
+    /// middle.
+    fn of(cut: &FamilyCut, place: usize, reach: f64) -> Self {
+        let [table, crown, pavilion] = std::array::from_fn(|row| cut[place + row]);
+        Self {
+            crown: (1.0 - table / 100.0) * reach * crown.to_radians().tan(),
+            pavilion: reach * pavilion.to_radians().tan(),
+        }
+    }
+}
+
 impl<'a> Brilliant<'a> {
     /// Returns the numbers of a cut whose seven rows from `place` on are those of
     /// [`brilliant_rows`](super::brilliant_rows). Both angles are those of facets at a distance of `reach` from the
     /// middle.
     pub fn of(cut: &FamilyCut, place: usize, girdle: &'a Girdle, middle: DVec2, reach: f64) -> Self {
-        let [table, crown, pavilion, star, lower_half, thickness, culet] =
-            std::array::from_fn(|row| cut[place + row]);
+        let [table, _, _, star, lower_half, thickness, culet] = std::array::from_fn(|row| cut[place + row]);
+        let heights = BrilliantHeights::of(cut, place, reach);
         Self {
             girdle,
             middle,
             table: table / 100.0,
-            crown_height: (1.0 - table / 100.0) * reach * crown.to_radians().tan(),
+            crown_height: heights.crown,
             star: star / 100.0,
             is_star_free: false,
             thickness: thickness / 50.0,
-            pavilion_depth: reach * pavilion.to_radians().tan(),
+            pavilion_depth: heights.pavilion,
             lower_half: lower_half / 100.0,
             culet: culet / 100.0,
         }
@@ -62,11 +83,9 @@ impl<'a> Brilliant<'a> {
     /// Returns the height of the whole stone, in girdle radii, of a cut whose seven rows from `place` on are those of
     /// [`brilliant_rows`](super::brilliant_rows).
     pub fn total_depth(cut: &FamilyCut, place: usize, reach: f64) -> f64 {
-        let [table, crown, pavilion, .., thickness, culet] =
-            std::array::from_fn::<f64, 7, _>(|row| cut[place + row]);
-        let crown_height = (1.0 - table / 100.0) * reach * crown.to_radians().tan();
-        let pavilion_depth = reach * pavilion.to_radians().tan() * (1.0 - culet / 100.0);
-        crown_height + thickness / 50.0 + pavilion_depth
+        let [.., thickness, culet] = std::array::from_fn::<f64, 7, _>(|row| cut[place + row]);
+        let heights = BrilliantHeights::of(cut, place, reach);
+        heights.crown + thickness / 50.0 + heights.pavilion * (1.0 - culet / 100.0)
     }
 
     /// Makes all facets.

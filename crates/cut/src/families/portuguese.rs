@@ -62,7 +62,7 @@ pub static PORTUGUESE: Family = Family {
             name: "Row at the girdle",
             meaning: "The angle between the pavilion's row at the girdle and the girdle plane.",
             most: Bound::at(Fixed(88.0), "the steepest facet allowed"),
-            get: |cut| angle(cut, |cut| tangent(cut, PAVILION) / pavilion(cut).last_flattening()),
+            get: |cut| angle(cut, girdle_row_tangent),
             ..ANGLE
         },
         rows::total_depth([75.0, 100.0], &["pavilion_angle"]),
@@ -100,23 +100,27 @@ fn pavilion(cut: &FamilyCut) -> AlternatingRows {
     }
 }
 
+/// Returns the tangent of the angle of the pavilion's row at the girdle.
+fn girdle_row_tangent(cut: &FamilyCut) -> f64 {
+    tangent(cut, PAVILION) / pavilion(cut).last_flattening()
+}
+
 fn depth(cut: &FamilyCut) -> f64 {
     let (crown, pavilion) = (crown(cut), pavilion(cut));
-    let below = tangent(cut, PAVILION) / pavilion.last_flattening() * pavilion.point();
+    let below = girdle_row_tangent(cut) * pavilion.point();
     tangent(cut, CROWN) * crown.last_ring() + cut[GIRDLE] / 50.0 + below
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (crown, pavilion) = (crown(cut), pavilion(cut));
     let mut net = FacetNet::default();
-    let slope = tangent(cut, CROWN);
-    net.plane("table", DVec3::Z, DVec3::Z * slope * crown.last_ring());
-    crown.add_to(&mut net, StoneHalf::Crown, 0.0, slope);
+    let tangent = tangent(cut, CROWN);
+    net.plane("table", DVec3::Z, DVec3::Z * tangent * crown.last_ring());
+    crown.add_to(&mut net, StoneHalf::Crown, 0.0, tangent);
     let thickness = cut[GIRDLE] / 50.0;
     if thickness > 0.0 {
         add_girdle(&mut net, crown.facets);
     }
-    let slope = tangent(cut, PAVILION) / pavilion.last_flattening();
-    pavilion.add_to(&mut net, StoneHalf::Pavilion, -thickness, slope);
+    pavilion.add_to(&mut net, StoneHalf::Pavilion, -thickness, girdle_row_tangent(cut));
     Ok(net)
 }
