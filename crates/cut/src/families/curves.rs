@@ -53,10 +53,27 @@ impl Wing {
     }
 }
 
+/// An arc of a circle.
+#[derive(Debug, Clone, Copy)]
+struct Arc {
+    centre: DVec2,
+    radius: f64,
+    /// The angle of the normal from +x at the first end, in radians.
+    from: f64,
+    /// The angle of the normal from +x at the last end, in radians.
+    to: f64,
+}
+
+impl Arc {
+    fn length(&self) -> f64 {
+        self.radius * (self.to - self.from)
+    }
+}
+
 /// A quarter of a rectangle with bulged sides and rounded corners, made of three arcs.
 pub struct RoundedQuarter {
-    /// The arcs at +x, at the corner and at +y: centre, radius, and the angles of the normals from +x at both ends.
-    arcs: [(DVec2, f64, [f64; 2]); 3],
+    /// The arcs at +x, at the corner and at +y.
+    arcs: [Arc; 3],
 }
 
 impl RoundedQuarter {
@@ -76,24 +93,27 @@ impl RoundedQuarter {
         let [begin, end] = [(centre - a).to_angle(), (centre - b).to_angle()];
         let quarter = std::f64::consts::FRAC_PI_2;
         let is_whole = to_a > 0.0 && to_b > 0.0 && begin > 0.0 && begin < end && end < quarter;
-        let arcs = [(a, right, [0.0, begin]), (centre, corner, [begin, end]), (b, upper, [end, quarter])];
+        let arcs = [
+            Arc { centre: a, radius: right, from: 0.0, to: begin },
+            Arc { centre, radius: corner, from: begin, to: end },
+            Arc { centre: b, radius: upper, from: end, to: quarter },
+        ];
         is_whole.then_some(Self { arcs })
     }
 
     /// Returns the place at a part of the way from +x to +y; the middle of the corner is at half of the way.
     pub fn at(&self, part: f64) -> GirdlePlace {
         let [side, corner, end] = self.arcs;
-        let middle = 0.5 * (corner.2[0] + corner.2[1]);
-        let [first, second] = [[corner.2[0], middle], [middle, corner.2[1]]];
-        let halves = [[side, (corner.0, corner.1, first)], [(corner.0, corner.1, second), end]];
+        let middle = 0.5 * (corner.from + corner.to);
+        let halves = [[side, Arc { to: middle, ..corner }], [Arc { from: middle, ..corner }, end]];
         let half = halves[usize::from(part > 0.5)];
-        let lengths = half.map(|(_, radius, [from, to])| radius * (to - from));
+        let lengths = half.map(|arc| arc.length());
         let mut way = (2.0 * part - f64::from(part > 0.5)) * (lengths[0] + lengths[1]);
         let arc = usize::from(way > lengths[0]);
         if arc == 1 {
             way -= lengths[0];
         }
-        let (centre, radius, [from, _]) = half[arc];
+        let Arc { centre, radius, from, .. } = half[arc];
         let normal = match part {
             0.0 => DVec2::X,
             1.0 => DVec2::Y,
