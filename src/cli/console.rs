@@ -42,14 +42,13 @@ pub fn written(path: &Path) -> Result<(), Failure> {
 /// Says on standard error that a file was written: where standard output has JSON (`is_json`), a path would break it. Otherwise
 /// prints the path as [`written`] does.
 pub fn written_beside(is_json: bool, path: &Path) -> Result<(), Failure> {
-    match is_json {
-        false => written(path),
-        true => {
-            if !is_standard(path) {
-                say(&format!("wrote {}", path.display()));
-            }
-            Ok(())
+    if is_json {
+        if !is_standard(path) {
+            say(&format!("wrote {}", path.display()));
         }
+        Ok(())
+    } else {
+        written(path)
     }
 }
 

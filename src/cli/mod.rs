@@ -170,9 +170,12 @@ enum Command {
 /// The value of every option may be a negative number, so that the option itself refuses one that it cannot take, and the
 /// message names the option and its range.
 fn parsed(words: &[OsString]) -> Result<Arguments, clap::Error> {
-    let may_be_negative = |arg: clap::Arg| match arg.get_action().takes_values() && !arg.is_positional() {
-        true => arg.allow_negative_numbers(true),
-        false => arg,
+    let may_be_negative = |arg: clap::Arg| {
+        if arg.get_action().takes_values() && !arg.is_positional() {
+            arg.allow_negative_numbers(true)
+        } else {
+            arg
+        }
     };
     let mut line = Arguments::command().mut_subcommands(|command| command.mut_args(may_be_negative));
     let matches = line.try_get_matches_from_mut(words)?;

@@ -191,9 +191,10 @@ impl OptimiseArguments {
         let kept = self.write(format, renamed(&outcome, search.objective().design()));
         let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
         let result = || SearchSummary::of(&search, &outcome, &others);
-        match self.json {
-            true => print_json(&OfFile { file: &path, result: result() })?,
-            false => print(&text(&goal, &search, &outcome, &others))?,
+        if self.json {
+            print_json(&OfFile { file: &path, result: result() })?
+        } else {
+            print(&text(&goal, &search, &outcome, &others))?
         }
         kept?;
         self.draw(plot.as_ref(), &specimen.design.name, &outcome)?;
@@ -271,10 +272,7 @@ impl OptimiseArguments {
         let show = progress.watch();
         let watch = |part: f64| {
             let is_over = self.seconds.is_some_and(|seconds| begun.elapsed().as_secs_f64() > seconds);
-            match is_over || is_asked_to_finish() {
-                true => ControlFlow::Break(()),
-                false => show(part),
-            }
+            if is_over || is_asked_to_finish() { ControlFlow::Break(()) } else { show(part) }
         };
         search.run(&watch, &|_| {})
     }

@@ -124,9 +124,12 @@ fn limits(search: &DesignSearch, outcome: &SearchOutcome, table: &mut Table) {
 
 /// Returns the cells of one change.
 fn cells(change: &MeasureChange) -> [TableCell; 4] {
-    let part = |value: Interval| match value.most.is_finite() {
-        true => format!("{:7.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error()),
-        false => format!("at least {:.2} %", 100.0 * value.least),
+    let part = |value: Interval| {
+        if value.most.is_finite() {
+            format!("{:7.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error())
+        } else {
+            format!("at least {:.2} %", 100.0 * value.least)
+        }
     };
     [
         format!("{}{}", change.of, change.conditions()).into(),

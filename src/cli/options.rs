@@ -274,9 +274,10 @@ impl LightOptions {
 
 /// Returns a wavelength in nm, if it is that of light.
 pub fn checked_wavelength(nm: f64) -> Result<f64, Failure> {
-    match (100.0..=100_000.0).contains(&nm) {
-        true => Ok(nm),
-        false => Err(Failure::Usage(format!("a wavelength of {nm} nm is not light; give 100 to 100000 nm"))),
+    if (100.0..=100_000.0).contains(&nm) {
+        Ok(nm)
+    } else {
+        Err(Failure::Usage(format!("a wavelength of {nm} nm is not light; give 100 to 100000 nm")))
     }
 }
 

@@ -44,12 +44,16 @@ impl ProgressLines {
 fn in_words(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     let minutes = (seconds / 60.0).round() as u64;
-    match () {
-        () if seconds < 9.5 => format!("{} s", seconds.ceil()),
-        () if seconds < 95.0 => format!("{} s", 10.0 * (seconds / 10.0).round()),
-        () if minutes < 60 => format!("{minutes} min"),
-        () if minutes < 48 * 60 => format!("{} h {} min", minutes / 60, minutes % 60),
-        () => format!("{} days", (minutes as f64 / (24.0 * 60.0)).round()),
+    if seconds < 9.5 {
+        format!("{} s", seconds.ceil())
+    } else if seconds < 95.0 {
+        format!("{} s", 10.0 * (seconds / 10.0).round())
+    } else if minutes < 60 {
+        format!("{minutes} min")
+    } else if minutes < 48 * 60 {
+        format!("{} h {} min", minutes / 60, minutes % 60)
+    } else {
+        format!("{} days", (minutes as f64 / (24.0 * 60.0)).round())
     }
 }
 

@@ -158,9 +158,10 @@ impl RetargetArguments {
             say(&format!("warning: {path}, fitted: {warning}"));
         }
         let light = if self.no_light { vec![] } else { self.light(&specimen, &made)? };
-        match self.json {
-            true => print_json(&self.result(&path, (&specimen, &made), &found, &light))?,
-            false => print(&self.table(&path, (&specimen, &made), &found, &light))?,
+        if self.json {
+            print_json(&self.result(&path, (&specimen, &made), &found, &light))?
+        } else {
+            print(&self.table(&path, (&specimen, &made), &found, &light))?
         }
         if let (Some(out), Some(format)) = (&self.out, format) {
             let lost = design_file::write(&made, format, out)?;
@@ -267,10 +268,8 @@ fn table_of_tiers(tiers: &[RetargetedTier], critical_deg: f64) -> Table {
     ];
     let mut table = Table::headed(columns).indented(2);
     for tier in tiers {
-        let margin = match tier.after_deg < 0.0 {
-            true => TableCell::Number(-tier.after_deg - critical_deg),
-            false => "".into(),
-        };
+        let margin =
+            if tier.after_deg < 0.0 { TableCell::Number(-tier.after_deg - critical_deg) } else { "".into() };
         let (before, after) = (tier.before_deg.into(), tier.after_deg.into());
         table.row([tier.name.as_str().into(), tier.facets.into(), before, after, margin]);
     }

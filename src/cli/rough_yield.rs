@@ -65,9 +65,10 @@ impl RoughYield {
         }
         let (name, material) = (&specimen.design.name, &specimen.material);
         let report = YieldReport::of(name, material, found, self.rough, self.rough_weight);
-        match self.json {
-            true => print_json(&OfFile { file: path, result: report }),
-            false => print(&format!("{path}: {name}, {}\n{}", material.name, table(&report))),
+        if self.json {
+            print_json(&OfFile { file: path, result: report })
+        } else {
+            print(&format!("{path}: {name}, {}\n{}", material.name, table(&report)))
         }
     }
 }

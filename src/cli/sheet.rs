@@ -49,9 +49,10 @@ impl SheetArguments {
             let Some((format, is_folder)) = format else {
                 return print_json_of(&self.files, &OfFile { file: &specimen.path, result: sheet });
             };
-            let path = match is_folder {
-                true => self.out.join(format!("{}{}-sheet.{}", stem(file), self.told_apart, format.ending())),
-                false => self.out.clone(),
+            let path = if is_folder {
+                self.out.join(format!("{}{}-sheet.{}", stem(file), self.told_apart, format.ending()))
+            } else {
+                self.out.clone()
             };
             write(&sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))?;
             // The viewer of an SVG has fonts of its own.

@@ -270,25 +270,24 @@ impl Spin {
     /// motion that does not tilt, and a plot or caption that needs wider pictures.
     fn check_panel(&self) -> Result<(), Failure> {
         let refused = |what: &str| Err(Failure::Usage(format!("--of: {what}")));
-        match () {
-            () if self.measures.is_empty() => {}
-            () if self.measures.len() > COLOURS_OF_CURVES => {
-                return refused(&format!("a plot tells {COLOURS_OF_CURVES} measures apart; give fewer"));
-            }
-            () if self.motion == StoneMotion::Turn => return refused(ONLY_TILTS),
-            () if self.view.perspective.is_some() => {
-                return refused("measures need parallel rays; leave out --perspective");
-            }
-            () => {}
+        if self.measures.is_empty() {
+        } else if self.measures.len() > COLOURS_OF_CURVES {
+            return refused(&format!("a plot tells {COLOURS_OF_CURVES} measures apart; give fewer"));
+        } else if self.motion == StoneMotion::Turn {
+            return refused(ONLY_TILTS);
+        } else if self.view.perspective.is_some() {
+            return refused("measures need parallel rays; leave out --perspective");
         }
         let width = self.picture.size[0];
         let too_narrow = |option: &str, least: u32| {
             Err(Failure::Usage(format!("--size: {width} pixels across: {option} needs {least}")))
         };
-        match () {
-            () if !self.measures.is_empty() && width < LEAST_PLOTTED => too_narrow("--of", LEAST_PLOTTED),
-            () if self.caption && width < LEAST_CAPTIONED => too_narrow("--caption", LEAST_CAPTIONED),
-            () => Ok(()),
+        if !self.measures.is_empty() && width < LEAST_PLOTTED {
+            too_narrow("--of", LEAST_PLOTTED)
+        } else if self.caption && width < LEAST_CAPTIONED {
+            too_narrow("--caption", LEAST_CAPTIONED)
+        } else {
+            Ok(())
         }
     }
 }

@@ -218,9 +218,10 @@ impl<'a> SpinPanel<'a> {
     }
 
     fn caption(&self, pose: &SpinPose) -> Result<(u32, Vec<u8>), Failure> {
-        match self.is_captioned {
-            true => caption_pixels(&self.pictures.caption(pose), self.width),
-            false => Ok((0, vec![])),
+        if self.is_captioned {
+            caption_pixels(&self.pictures.caption(pose), self.width)
+        } else {
+            Ok((0, vec![]))
         }
     }
 

@@ -219,9 +219,10 @@ impl SweepArguments {
     }
 
     fn measures(&self) -> Vec<MeasureName> {
-        match self.measures.is_empty() {
-            true => USUAL.iter().filter_map(|name| name.parse().ok()).collect(),
-            false => self.measures.clone(),
+        if self.measures.is_empty() {
+            USUAL.iter().filter_map(|name| name.parse().ok()).collect()
+        } else {
+            self.measures.clone()
         }
     }
 

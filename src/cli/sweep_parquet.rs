@@ -59,10 +59,8 @@ pub struct ParquetTable {
 impl ParquetTable {
     /// Begins a file with these columns; all hold numbers except for those that `is_text` names.
     pub fn begin(path: &Path, columns: &[String], is_text: impl Fn(usize) -> bool) -> Result<Self, Failure> {
-        let empty = |place| match is_text(place) {
-            true => Column::Texts(vec![]),
-            false => Column::Numbers(vec![], vec![]),
-        };
+        let empty =
+            |place| if is_text(place) { Column::Texts(vec![]) } else { Column::Numbers(vec![], vec![]) };
         let kinds: Vec<Column> = (0..columns.len()).map(empty).collect();
         let begun = || {
             let fields = kinds.iter().zip(columns).map(|(kind, name)| kind.described(name).map(Arc::new));

@@ -146,9 +146,8 @@ impl<'a> SweepPlot<'a> {
             }
             PlotShape::Family { axis, key, members, is_first } => {
                 let along = axis.values.len();
-                let point = |member: usize, place: usize| match is_first {
-                    true => member * along + place,
-                    false => place * members.len() + member,
+                let point = |member: usize, place: usize| {
+                    if *is_first { member * along + place } else { place * members.len() + member }
                 };
                 let curve = |k: usize, (member, name): (usize, &String)| PlotCurve {
                     name: name.clone(),

@@ -137,13 +137,12 @@ impl RowTable {
         let head = if is_json { String::new() } else { csv_line(&columns) };
         let mut table = Self { columns, is_json, file: None, kept: 0, checked: VecDeque::new() };
         // The error is the one that other commands have where nothing can be written.
-        table.file = Some(match resume && path.exists() {
-            true => {
-                check_writable(path)?;
-                let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", path.display()));
-                table.taken_up(path, head).map_err(refused)?
-            }
-            false => RowFile::begin(path, head)?,
+        table.file = Some(if resume && path.exists() {
+            check_writable(path)?;
+            let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", path.display()));
+            table.taken_up(path, head).map_err(refused)?
+        } else {
+            RowFile::begin(path, head)?
         });
         Ok(table)
     }

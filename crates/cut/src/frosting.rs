@@ -108,9 +108,10 @@ impl FinishNote {
                 || word.parse::<f64>().is_ok_and(|n| n >= 100.0)
         };
         let others = words.iter().enumerate().filter(|(k, _)| amount.is_none() || *k != at + 1);
-        match others.map(|(_, word)| word).all(is_plain) {
-            true => Self::Frosting(amount.unwrap_or(USUAL_FROSTING)),
-            false => Self::Unclear,
+        if others.map(|(_, word)| word).all(is_plain) {
+            Self::Frosting(amount.unwrap_or(USUAL_FROSTING))
+        } else {
+            Self::Unclear
         }
     }
 }

@@ -31,10 +31,7 @@ impl MeshShape {
         let shift = -scale * middle.extend((low + high) / 2.0);
         let is_framed = (scale - 1.0).abs() < IN_FRAME && shift.length() < IN_FRAME;
         let pose = Pose { at: shift, turn, scale };
-        let mesh = match is_framed && turn == DQuat::IDENTITY {
-            true => mesh.clone(),
-            false => mesh.reframed(&pose),
-        };
+        let mesh = if is_framed && turn == DQuat::IDENTITY { mesh.clone() } else { mesh.reframed(&pose) };
         let pose = if is_framed { Pose::turned(turn) } else { pose };
         Some((Self(Arc::new(mesh)), pose))
     }

@@ -405,9 +405,10 @@ fn placed(members: &[Member], metals: Vec<MetalInstance>) -> Scene {
         (high - low).max_element()
     };
     let diameters = members.iter().map(|m| m.diameter_mm);
-    let unit_mm = match members.is_empty() {
-        true => 0.5 * metals.iter().map(across).fold(0.0, f64::max),
-        false => 0.5 * diameters.fold(0.0, f64::max),
+    let unit_mm = if members.is_empty() {
+        0.5 * metals.iter().map(across).fold(0.0, f64::max)
+    } else {
+        0.5 * diameters.fold(0.0, f64::max)
     };
     let place = |m: &Member| {
         let stone = Instance::of(&m.specimen.body, m.material.1.clone(), &m.specimen.design.name);

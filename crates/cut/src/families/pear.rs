@@ -68,10 +68,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     // The widest place has this distance from the middle of the length.
     let widest = DVec2::new(0.0, head - cut[LENGTH]);
     let curve = |way: f64| {
-        let place = around(way, |part| match way < 0.5 {
-            true => wing.at(part),
-            false => ellipse(head, part),
-        });
+        let place = around(way, |part| if way < 0.5 { wing.at(part) } else { ellipse(head, part) });
         GirdlePlace { at: place.at + widest, ..place }
     };
     let girdle = Girdle::new(4 * cut[MAINS] as usize, curve);

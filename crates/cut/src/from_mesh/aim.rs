@@ -245,10 +245,12 @@ fn own(cues: &Cues, even: f64, custom: DVec3) -> f64 {
     let fits = cues.table_area > 0.0 || cues.culet_area > 0.0 || cues.girdle > FITS || even > FITS;
     let along = fits && axes().into_iter().any(is);
     let second = if custom == DVec3::Y { DVec3::Z } else { DVec3::Y };
-    let usual = match () {
-        () if is(custom) => 1.0,
-        () if is(second) => 0.5,
-        () => 0.0,
+    let usual = if is(custom) {
+        1.0
+    } else if is(second) {
+        0.5
+    } else {
+        0.0
     };
     weight::CUSTOM * usual + if along { weight::OWN_AXIS } else { 0.0 }
 }

@@ -145,10 +145,12 @@ impl Facing {
             let (low, high) = span(solid.corners(facet).map(|corner| corner.dot(up)));
             lean.abs() < LEAST_UPRIGHT && lean.abs() * (high - low) <= NOISY * noise
         };
-        match () {
-            () if lean.abs() < UPRIGHT || is_noise() => Self::Aside,
-            () if lean > 0.0 => Self::Up,
-            () => Self::Down,
+        if lean.abs() < UPRIGHT || is_noise() {
+            Self::Aside
+        } else if lean > 0.0 {
+            Self::Up
+        } else {
+            Self::Down
         }
     }
 }

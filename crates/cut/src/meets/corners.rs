@@ -67,13 +67,14 @@ impl Tiers {
             let depth = |facet: &usize| planes[*facet].normal.dot(corner.at);
             let facet = (0..planes.len()).max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
             let touches = depth(&facet) >= supports[facet] - REACHABLE * stone.scale();
-            let fault = match () {
-                () if bench.is_across(corner, StoneSide::of(planes[facet].normal)) => {
-                    Some(CornerFault::Across { zone })
-                }
-                () if depth(&facet) <= 0.0 => Some(CornerFault::Behind),
-                () if count <= 1 && touches => Some(CornerFault::Touches),
-                () => None,
+            let fault = if bench.is_across(corner, StoneSide::of(planes[facet].normal)) {
+                Some(CornerFault::Across { zone })
+            } else if depth(&facet) <= 0.0 {
+                Some(CornerFault::Behind)
+            } else if count <= 1 && touches {
+                Some(CornerFault::Touches)
+            } else {
+                None
             };
             Some((bench.tier_corner(corner, &planes, facet), fault))
         });
@@ -112,9 +113,12 @@ impl Tiers {
         let now = self.tiers.get(place)?.distance.abs();
         let scale = Bench::of(self).stone().scale();
         let corners = self.tier_corners(place).into_iter().filter(|corner| corner.facet == 0);
-        let beyond = |corner: &TierCorner| match is_deeper {
-            true => now - corner.distance > PASSES * scale,
-            false => corner.distance - now > PASSES * scale,
+        let beyond = |corner: &TierCorner| {
+            if is_deeper {
+                now - corner.distance > PASSES * scale
+            } else {
+                corner.distance - now > PASSES * scale
+            }
         };
         let mut next: Vec<TierCorner> = corners.filter(beyond).collect();
         let apart = |corner: &TierCorner| (corner.distance - now).abs();

@@ -94,11 +94,16 @@ impl KnownMeets {
         let stated = design.with_stated_meets().with_names_in_meets();
         let (met, solved) = stated.with_found_meets_followed();
         let has = |tiers: &Tiers, place: usize| tiers.tiers[place].meet.is_some();
-        let source = |place| match () {
-            () if has(&design, place) => MeetSource::File,
-            () if has(&stated, place) => MeetSource::Stated,
-            () if has(&met, place) => MeetSource::Found,
-            () => MeetSource::Unknown,
+        let source = |place| {
+            if has(&design, place) {
+                MeetSource::File
+            } else if has(&stated, place) {
+                MeetSource::Stated
+            } else if has(&met, place) {
+                MeetSource::Found
+            } else {
+                MeetSource::Unknown
+            }
         };
         let names = met.names();
         let tier = |(place, name): (usize, String)| {

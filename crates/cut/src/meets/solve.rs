@@ -321,12 +321,12 @@ impl<'a> Bench<'a> {
     pub fn meant(&self, place: usize, named: &[String]) -> Result<Vec<Vec<usize>>, MeetFault> {
         let of_name = |name: &String| {
             let meant = self.names.meant(name, place);
-            match () {
-                () if meant.is_empty() => Err(MeetFault::UnknownName { name: name.clone() }),
-                () if !meant.iter().any(|&tier| self.is_done[tier]) => {
-                    Err(MeetFault::NotCutYet { name: name.clone() })
-                }
-                () => Ok(meant),
+            if meant.is_empty() {
+                Err(MeetFault::UnknownName { name: name.clone() })
+            } else if !meant.iter().any(|&tier| self.is_done[tier]) {
+                Err(MeetFault::NotCutYet { name: name.clone() })
+            } else {
+                Ok(meant)
             }
         };
         named.iter().map(of_name).collect()

@@ -114,9 +114,10 @@ fn readings(text: &str, zone: TierZone, names: &TierNames, from: usize, above: V
     let (mut corners, ends_at_centre) = corners(&text, names, from);
     corners.truncate(MOST_POINTS);
     let has = |words: &[&str]| words.iter().any(|word| has_words(&text, word));
-    let centre = match () {
-        () if has(&TEMPORARY) => Some(MeetPoint::Centre { temporary: true }),
-        () => has(&CENTRE).then_some(MeetPoint::Centre { temporary: false }),
+    let centre = if has(&TEMPORARY) {
+        Some(MeetPoint::Centre { temporary: true })
+    } else {
+        has(&CENTRE).then_some(MeetPoint::Centre { temporary: false })
     };
     let is_new_centre = centre.is_some() && has(&MADE);
     let is_chosen = has(&CHOSEN);

@@ -379,9 +379,12 @@ impl<'a> Shape<'a> {
 
 /// Returns the stone whose facets below the girdle are moved down by a length, so that its girdle is thicker by it.
 fn thickened(stone: &Polytope, by: f64) -> Result<Polytope, PolytopeError> {
-    let moved = |plane: Plane| match plane.normal.z < -EXACT {
-        true => Plane { offset: plane.offset - plane.normal.z * by, ..plane },
-        false => plane,
+    let moved = |plane: Plane| {
+        if plane.normal.z < -EXACT {
+            Plane { offset: plane.offset - plane.normal.z * by, ..plane }
+        } else {
+            plane
+        }
     };
     Polytope::from_planes(&stone.planes().map(moved).collect::<Vec<_>>())
 }

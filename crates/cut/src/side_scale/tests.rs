@@ -88,10 +88,8 @@ fn a_scaled_side_is_a_stretch_about_the_girdle_and_the_girdle_keeps_its_thicknes
                         let off = |from: DVec3| {
                             stretched.corners(b).map(|to| to.distance(from)).fold(f64::INFINITY, f64::min)
                         };
-                        let off = match side.has(a.plane.normal) {
-                            true => off(moved),
-                            false => off(moved).min(off(corner)),
-                        };
+                        let off =
+                            if side.has(a.plane.normal) { off(moved) } else { off(moved).min(off(corner)) };
                         assert!(off < 1e-9, "{number} {side} {factor}: {corner} is off by {off}");
                     }
                 }

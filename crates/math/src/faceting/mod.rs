@@ -99,7 +99,7 @@ pub fn facets(surface: Surface) -> SurfaceKind {
     let search = SolidSearch::of(&moved);
     let exact = search.exact().map(|solid| (trust(&moved, &solid, false), solid));
     let trusted = exact.as_ref().filter(|(trust, _)| *trust == Trust::Known).map(|(_, solid)| solid);
-    if let Some(solid) = search.covering(trusted) {
+    if let Some(solid) = cover::covering(&moved, &search.edges, trusted) {
         return SurfaceKind::Convex(Box::new(faceted(moved, centre, solid, true)));
     }
     let is_changed = exact.is_none();

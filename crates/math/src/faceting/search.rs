@@ -1,6 +1,5 @@
 //! Searches for the solid that reproduces a surface, between the planes of regions, at growing tolerances.
 
-use super::cover;
 use super::deviation::deviation;
 use super::deviation::outermost;
 use super::fit::PlaneFit;
@@ -67,7 +66,7 @@ pub(super) struct MatchingSolid {
 /// A surface with its centre at the origin, and the data that the search for its solid needs.
 pub(super) struct SolidSearch<'a> {
     surface: &'a Surface,
-    edges: Edges,
+    pub edges: Edges,
     /// The hull of the corners, computed at first use, since most surfaces do not need it; `None` where all corners
     /// lie in one plane.
     hull: OnceCell<Option<Hull>>,
@@ -110,12 +109,6 @@ impl<'a> SolidSearch<'a> {
             }
         }
         Some(best)
-    }
-
-    /// Returns the solid on whose facets all corners lie, where triangles lie across its edges; `trusted` is what [`Self::exact`] found, if
-    /// it can be trusted.
-    pub fn covering(&self, trusted: Option<&MatchingSolid>) -> Option<MatchingSolid> {
-        cover::covering(self.surface, &self.edges, trusted)
     }
 
     /// Returns the hull, where the surface is meant to be its hull.

@@ -180,9 +180,12 @@ pub fn write_scene_obj(scene: &Scene) -> String {
             let _ = writeln!(text, "vn {x} {y} {z}");
         }
         for face in faces {
-            let corner = |v: &u32| match normals.is_empty() {
-                true => format!(" {}", first + v),
-                false => format!(" {}//{}", first + v, first_normal + v),
+            let corner = |v: &u32| {
+                if normals.is_empty() {
+                    format!(" {}", first + v)
+                } else {
+                    format!(" {}//{}", first + v, first_normal + v)
+                }
             };
             let _ = writeln!(text, "f{}", face.corners.iter().map(corner).collect::<String>());
         }

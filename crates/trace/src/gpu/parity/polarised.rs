@@ -2,7 +2,7 @@
 //! stone to stone.
 
 use super::card;
-use super::rings::{Shot, askew, assert_same, dark, differences, gem};
+use super::rings::{ParityShot, askew, assert_same, dark, differences, gem};
 use crate::ray::ByRays;
 use brillianteer_math::{Plane, Polytope, Pose};
 use brillianteer_scene::{Instance, Light, Scene, View};
@@ -18,11 +18,11 @@ fn block(halves: [f64; 3]) -> Polytope {
 }
 
 /// Returns a picture, in a white world, of a cube of glass that is turned and faces the eye with a side.
-fn cube(turn: DQuat, eye: DQuat) -> Shot {
+fn cube(turn: DQuat, eye: DQuat) -> ParityShot {
     let pose = Pose { at: DVec3::ZERO, turn, scale: 0.7 };
     let instances = vec![Instance { pose, ..Instance::new(block([1.0; 3]), dark(1.5, 0.02)) }];
     let scene = Scene { instances, metals: vec![], unit_mm: 3.25 };
-    Shot { light: Light::white(), view: View { turn: eye, ..View::default() }, ..Shot::of(scene) }
+    ParityShot { light: Light::white(), view: View { turn: eye, ..View::default() }, ..ParityShot::of(scene) }
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn a_turned_facet_seen_square_on_is_as_bright_on_the_card_as_to_the_rays() {
 
 /// Returns two plates of glass, one behind the other, which light passes at a slant. Their planes of incidence cross, so
 /// that the second passes little of what the first has passed best.
-fn crossed_plates() -> Shot {
+fn crossed_plates() -> ParityShot {
     let body = block([1.0, 1.0, 0.05]);
     let plate = |at: DVec3, turn: DQuat| Instance {
         pose: Pose { at, turn: askew() * turn, scale: 0.8 },
@@ -55,7 +55,7 @@ fn crossed_plates() -> Shot {
         plate(DVec3::new(0.0, -0.2, -0.6), DQuat::from_rotation_y(0.9)),
     ];
     let scene = Scene { instances, metals: vec![], unit_mm: 3.25 };
-    Shot { wavelengths: 2, backdrop: true, ..Shot::of(scene) }
+    ParityShot { wavelengths: 2, backdrop: true, ..ParityShot::of(scene) }
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn light_that_goes_from_stone_to_stone_keeps_its_polarisation_on_the_card() {
 }
 
 /// Returns two stones, one behind the other, that reflect much light totally before it leaves them.
-fn two_gems() -> Shot {
+fn two_gems() -> ParityShot {
     let stone = |height: f64, turn: DQuat, scale: f64| Instance {
         pose: Pose { at: DVec3::Z * height, turn: askew() * turn, scale },
         ..Instance::new(gem(), dark(2.4, 0.001))
@@ -80,7 +80,7 @@ fn two_gems() -> Shot {
         stone(-1.6, DQuat::from_rotation_y(0.7) * DQuat::from_rotation_z(0.4), 2.4),
     ];
     let scene = Scene { instances, metals: vec![], unit_mm: 3.25 };
-    Shot { wavelengths: 1, light: Light { head: 0.0, ..Light::studio() }, ..Shot::of(scene) }
+    ParityShot { wavelengths: 1, light: Light { head: 0.0, ..Light::studio() }, ..ParityShot::of(scene) }
 }
 
 #[test]

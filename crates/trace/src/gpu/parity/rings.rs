@@ -27,7 +27,7 @@ const BLOCK: u32 = 8;
 type Broken = Box<dyn std::error::Error>;
 
 /// A scene and the settings of its picture.
-pub(super) struct Shot {
+pub(super) struct ParityShot {
     pub scene: Scene,
     pub light: Light,
     pub view: View,
@@ -38,7 +38,7 @@ pub(super) struct Shot {
     pub is_polarised: bool,
 }
 
-impl Shot {
+impl ParityShot {
     /// Returns a picture of a scene under a ring of light, seen at a tilt, in one pass of polarised light.
     pub fn of(scene: Scene) -> Self {
         Self {
@@ -141,7 +141,7 @@ fn band(is_smooth: bool) -> Arc<ShadedMesh> {
 
 /// Returns a stone in a ring that cuts into it, above an open plate that mirrors on both sides, and a smaller ring of
 /// the same mesh beside them.
-fn ring(body: impl Into<Body>, roughness: f64) -> Shot {
+fn ring(body: impl Into<Body>, roughness: f64) -> ParityShot {
     let pose = |at: DVec3, scale: f64| Pose { at, turn: askew(), scale };
     let stone = Instance { pose: pose(DVec3::ZERO, 0.7), ..Instance::new(body, dark(1.8, 0.05)) };
     let band = band(true);
@@ -150,7 +150,7 @@ fn ring(body: impl Into<Body>, roughness: f64) -> Shot {
         of(&plate(1.0), Metal::Silver, 0.0, pose(DVec3::new(0.0, 0.0, -0.55), 1.0)),
         of(&band, Metal::Platinum, 0.5, pose(DVec3::new(0.75, 0.6, 0.2), 0.25)),
     ];
-    Shot::of(Scene { instances: vec![stone], metals, unit_mm: 3.25 })
+    ParityShot::of(Scene { instances: vec![stone], metals, unit_mm: 3.25 })
 }
 
 /// The differences between two pictures of one scene.
@@ -204,7 +204,7 @@ pub(super) fn assert_same(name: &str, found: &Differences) {
     assert!(found.rest.iter().all(|rest| rest.abs() < 2e-3), "{name}: {found:?}");
 }
 
-pub(super) fn compared(shot: &Shot, gpu: &Gpu) -> Differences {
+pub(super) fn compared(shot: &ParityShot, gpu: &Gpu) -> Differences {
     differences(&shot.by_rays(), &shot.by_card(gpu))
 }
 
@@ -212,7 +212,7 @@ pub(super) fn compared(shot: &Shot, gpu: &Gpu) -> Differences {
 fn light_between_metal_and_a_stone_is_that_of_the_rays_on_the_card() {
     let Some(gpu) = card("light_between_metal_and_a_stone_is_that_of_the_rays_on_the_card") else { return };
     for (roughness, by_chance) in [(0.0, 0.0), (0.1, 0.0), (0.4, 0.1)] {
-        let shot = Shot { by_chance, backdrop: by_chance > 0.0, ..ring(gem(), roughness) };
+        let shot = ParityShot { by_chance, backdrop: by_chance > 0.0, ..ring(gem(), roughness) };
         let found = compared(&shot, &gpu);
         assert_same(&format!("roughness {roughness}"), &found);
     }
@@ -260,7 +260,7 @@ fn metal_stands_on_the_card_beside_every_kind_of_solid_and_alone() {
         ("a cube", ImplicitSurface::new(form).unwrap().into()),
     ];
     for (name, body) in bodies {
-        let shot = Shot { wavelengths: 1, passes: 4, ..ring(body, 0.3) };
+        let shot = ParityShot { wavelengths: 1, passes: 4, ..ring(body, 0.3) };
         let found = compared(&shot, &gpu);
         // For light that has left a mesh or a shape, the random numbers of single pixels differ.
         assert!(found.blocks < 0.05, "{name}: {found:?}");
