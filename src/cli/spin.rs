@@ -270,12 +270,14 @@ impl Spin {
     /// motion that does not tilt, and a plot or caption that needs wider pictures.
     fn check_panel(&self) -> Result<(), Failure> {
         let refused = |what: &str| Err(Failure::Usage(format!("--of: {what}")));
-        if self.measures.is_empty() {
-        } else if self.measures.len() > COLOURS_OF_CURVES {
+        if self.measures.len() > COLOURS_OF_CURVES {
             return refused(&format!("a plot tells {COLOURS_OF_CURVES} measures apart; give fewer"));
-        } else if self.motion == StoneMotion::Turn {
+        }
+        let takes_measures = !self.measures.is_empty();
+        if takes_measures && self.motion == StoneMotion::Turn {
             return refused(ONLY_TILTS);
-        } else if self.view.perspective.is_some() {
+        }
+        if takes_measures && self.view.perspective.is_some() {
             return refused("measures need parallel rays; leave out --perspective");
         }
         let width = self.picture.size[0];
