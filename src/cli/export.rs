@@ -11,7 +11,7 @@ use brillianteer_files::is_standard;
 use brillianteer_paper::MOST_PIXELS;
 use brillianteer_paper::export::{self, OutputFormat, Outputs, first_twice};
 use brillianteer_picture::{Picture, PictureName};
-use brillianteer_render::{Card, Renderer};
+use brillianteer_render::{Card, Renderer, Unfit};
 use brillianteer_scene::Glare;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ pub struct ExportArguments {
     /// Folder to write to; `-` is standard output, for a single file; of the two pictures in a scope it gets energy
     #[arg(short, long, default_value = "out")]
     out: PathBuf,
-    /// Draw a caption under pictures in scopes: what each colour means, view, error, stone and program
+    /// Draw a caption under pictures in scopes and contrast maps: what each colour means, view, error, stone and program
     #[arg(long)]
     caption: bool,
     /// Mark the findings of the audit, as `info --audit` lists them, in facet diagrams
@@ -79,9 +79,12 @@ impl ExportArguments {
             let progress = WorkProgress::new(&specimen.design.name);
             let export = export::Export { viewing, outputs: &outputs };
             let no_facets = || specimen.stone().err().map(|why| why.to_string());
-            let no_contrast = || viewing.why_no_contrast(&renderer).map(|why| why.to_string());
             if export.files(&renderer)?.is_empty() {
-                let why = no_facets().or_else(no_contrast).unwrap_or_default();
+                let no_contrast = viewing.why_no_contrast(&renderer);
+                if let Some(eye @ Unfit::Eye) = &no_contrast {
+                    return Err(eye.failure(&specimen.path));
+                }
+                let why = no_facets().or_else(|| no_contrast.map(|why| why.to_string())).unwrap_or_default();
                 return Err(Failure::Usage(format!(
                     "{}: none of the pictures can be drawn: {why}",
                     specimen.path

@@ -145,7 +145,7 @@ pub struct LightOptions {
     #[arg(long, value_name = "NM", value_parser = number)]
     pub wavelength: Option<f64>,
     /// Block the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
-    /// and arrows, which have their own hole for the eye)
+    /// and arrows, which have their own hole for the eye; measures and contrast maps have 15 degrees at 0)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number)]
     pub head: f64,
     /// Follow the beams until no more than this part of the light is unresolved, and estimate nothing in figures [default:

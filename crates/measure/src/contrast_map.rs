@@ -14,6 +14,8 @@ use std::ops::Range;
 /// The contrast of a square is (b - m) / m, where b is its mean brightness and m that of the
 /// face: -1 where it is dark, 0 where it is as bright as the face in the mean. The root of the mean square over the
 /// face is the measure eye-contrast (docs/optics.md, "Pattern").
+///
+/// In a stone that absorbs, the brightness is a mean over each beam's outline, and the bounds are those of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContrastMap {
     corners: Vec<DVec2>,
@@ -43,11 +45,11 @@ pub struct SquareContrast {
 }
 
 impl SquareContrast {
-    fn of(cell: &EyeCell, known_mean: f64, mean: Interval) -> Self {
+    fn of(cell: &EyeCell, mean: Interval) -> Self {
         let (bright, ratio) = (cell.brightness(), |b: f64, m: f64| if m > 0.0 { b / m - 1.0 } else { 0.0 });
         let most = if mean.least > 0.0 { ratio(bright.most, mean.least) } else { f64::INFINITY };
         Self {
-            known: ratio(cell.light, known_mean),
+            known: ratio(cell.light, mean.least),
             bounds: Interval { least: ratio(bright.least, mean.most), most },
         }
     }
@@ -68,14 +70,14 @@ impl ContrastMap {
         let grid = EyeGrid::of(beams, &bright, pattern.resolves(), watch)?;
         let mean = grid.mean();
         let (mut corners, mut parts): (Vec<DVec2>, Vec<FacePart>) = (vec![], vec![]);
-        grid.parts_of_face(beams, |cell, outline| {
+        grid.parts_of_face(beams, watch, |cell, outline| {
             if outline.len() > 2 {
                 let from = corners.len() as u32;
                 corners.extend(outline);
-                let contrast = SquareContrast::of(cell, mean.least, mean);
+                let contrast = SquareContrast::of(cell, mean);
                 parts.push(FacePart { corners: from..corners.len() as u32, contrast });
             }
-        });
+        })?;
         let (side, whole) = (grid.side, rms_contrast(grid.cells.into_iter()));
         Ok(Self { corners, parts, whole, side, unresolved: beams.unresolved() })
     }

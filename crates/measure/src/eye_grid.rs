@@ -86,10 +86,16 @@ impl EyeGrid {
         Ok(grid)
     }
 
-    /// Hands out the face in parts, each of one facet and in one cell, with its cell.
-    pub fn parts_of_face(&self, beams: &Beams, mut each: impl FnMut(&EyeCell, &[DVec2])) {
+    /// Hands out the face in parts, each of one facet and in one cell, with its cell. Fails where `watch` asks to stop.
+    pub fn parts_of_face(
+        &self,
+        beams: &Beams,
+        watch: Watch,
+        mut each: impl FnMut(&EyeCell, &[DVec2]),
+    ) -> Result<(), Stopped> {
         let (copies, mut clipper, mut corners) = (beams.symmetry.copies(), Clipper::default(), vec![]);
         for beam in beams.iter().filter(Beam::is_surface) {
+            go_on(watch, 1.0)?;
             for copy in &copies {
                 copy_outline(beam.outline, copy, &mut corners);
                 clipper.spread(&corners, self.side, |place, part| {
@@ -99,6 +105,7 @@ impl EyeGrid {
                 });
             }
         }
+        Ok(())
     }
 
     /// Makes empty cells over all outlines.

@@ -46,7 +46,7 @@ pub use hearts_and_arrows::{
 pub use hemisphere::{SampledNumber, hemisphere_return};
 pub use interval::Interval;
 pub use light_measures::{
-    DomeReturn, LightMeasures, MEASURES_HEAD_DEG, MeasureSettings, PUPIL_DEG, pupil_deg,
+    DomeReturn, LightMeasures, MEASURES_HEAD_DEG, MeasureSettings, PUPIL_DEG, head_of_measures, pupil_deg,
 };
 pub use measure_name::{MeasureName, MeasureNeeds, NoMeasure};
 pub use measured::{Bounds, LATTICE, LightShares, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};

@@ -30,6 +30,11 @@ pub fn pupil_deg(diameter_mm: f64) -> f64 {
 /// the ASET's blue cone.
 pub const MEASURES_HEAD_DEG: f64 = 15.0;
 
+/// Returns the half angle of the head of measures, degrees, where scopes have this one: the same, or the usual one for 0.
+pub fn head_of_measures(of_scopes_deg: f64) -> f64 {
+    if of_scopes_deg > 0.0 { of_scopes_deg } else { MEASURES_HEAD_DEG }
+}
+
 /// The light, head and eye by which the measures are taken.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeasureSettings {

@@ -46,11 +46,11 @@ const FIGURES: f64 = 1.0;
 /// A file format of the outputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputFormat {
-    /// Pictures of energy and of strongest exits, sRGB.
+    /// Pictures, sRGB.
     Png,
-    /// The virtual facets as polygons.
+    /// Virtual facets, or squares of a contrast map, as polygons; drawings.
     Svg,
-    /// Energy of each zone, 32-bit and linear.
+    /// Energy of each zone, or contrast, 32-bit and linear.
     Exr,
     /// Figures of the view, as `measure --json` prints them.
     Json,
@@ -89,7 +89,7 @@ pub struct Outputs {
     pub strongest: bool,
     /// True where facet diagrams mark the findings of the stone's audit.
     pub mark_audit: bool,
-    /// True where PNG and SVG pictures in scopes have a caption with the legend of the scope's zones under them.
+    /// True where PNG and SVG pictures in scopes, and contrast maps, have a caption with a legend under them.
     pub caption: bool,
     /// True where the figures include the time that they took, which makes files differ from run to run.
     pub timing: bool,
@@ -234,7 +234,7 @@ impl Export<'_> {
         }
         let named = Outputs { folder: PathBuf::new(), ..self.outputs.clone() };
         let paths = Export { outputs: &named, ..*self }.paths(renderer, by_beams);
-        if paths.len() == 1 {
+        if paths.len() <= 1 {
             return Ok(());
         }
         let count = paths.len();

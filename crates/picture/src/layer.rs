@@ -106,11 +106,10 @@ impl Layer {
         let mut layer =
             Self { corners: vec![], patches: vec![], copies: vec![DMat2::IDENTITY], channels, open };
         for (outline, values) in polygons {
-            values
-                .into_iter()
-                .chain([1.0])
-                .enumerate()
-                .for_each(|(channel, value)| layer.add(outline, channel, value));
+            let corners = layer.outlined(outline);
+            for (channel, weight) in values.into_iter().chain([1.0]).enumerate() {
+                layer.patches.push(LightPatch { corners, channel: channel as u16, weight });
+            }
         }
         layer
     }
@@ -128,9 +127,15 @@ impl Layer {
     }
 
     fn add(&mut self, outline: &[DVec2], channel: usize, weight: f64) {
+        let corners = self.outlined(outline);
+        self.patches.push(LightPatch { corners, channel: channel as u16, weight });
+    }
+
+    /// Keeps an outline, and returns its first corner and their number.
+    fn outlined(&mut self, outline: &[DVec2]) -> (u32, u32) {
         let corners = (self.corners.len() as u32, outline.len() as u32);
         self.corners.extend(outline);
-        self.patches.push(LightPatch { corners, channel: channel as u16, weight });
+        corners
     }
 
     /// Adds light of this weight over a beam's outline, faded by absorption along `path`.

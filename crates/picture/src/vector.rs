@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use svg::Document;
 use svg::node::element::{Definitions, Description, Group, Path, Polygon, Rectangle, Title, Use};
 
-/// Side of the drawing, in its own units; coordinates have four decimals.
+/// Side of the drawing, in its own units; coordinates have four decimals, in contrast maps two.
 pub const SIDE: u32 = 1000;
 
 /// Area, in square units of the drawing, below which polygons are left out, as rounding would lose them.
@@ -74,12 +74,15 @@ pub fn energy(stone: &Stone, beams: &Beams, (scope, glare): (&Scope, Glare), tit
 /// The steps of contrast that a drawing tells apart, each 1 % of the face's mean brightness.
 const CONTRAST_STEPS: f64 = 100.0;
 
+/// The part of a square of a contrast map by which a seam is wide at most: the lines of lighter squares would hide small dark ones.
+const SEAM_OF_SQUARES: f64 = 0.05;
+
 /// Draws a contrast map: the parts of the face, each with its contrast. Parts of about the same contrast are one path, which says it
-/// (`data-contrast`).
+/// (`data-contrast`). `side` is that of the squares, girdle radii.
 pub fn contrast<'a>(
     stone: &Stone,
     beams: &Beams,
-    parts: impl Iterator<Item = (&'a [DVec2], f64)>,
+    (parts, side): (impl Iterator<Item = (&'a [DVec2], f64)>, f64),
     (title, open): (&str, &str),
 ) -> Document {
     let page = Page::of_whole(stone, beams);
@@ -94,8 +97,9 @@ pub fn contrast<'a>(
         let path = Path::new().set("d", data).set("data-contrast", contrast);
         path.set("fill", colour.as_str()).set("stroke", colour)
     };
-    let group =
-        Group::new().set("class", "contrast").set("stroke-width", SEAM).set("stroke-linejoin", "round");
+    let seam = SEAM.min(SEAM_OF_SQUARES * side / page.film.pixel);
+    let group = Group::new().set("class", "contrast").set("stroke-width", format!("{seam:.4}"));
+    let group = group.set("stroke-linejoin", "round");
     let group = paths.into_iter().map(coloured).fold(group, Group::add);
     page.document(title, open, beams, ("#000000", vec![group]))
 }
@@ -195,7 +199,7 @@ impl<'a> Page<'a> {
     ) -> Document {
         let polarised = if beams.polarised { "polarised" } else { "unpolarised" };
         let description =
-            format!("Virtual facets of exact beams, {polarised}, index {}; {open}", beams.medium.index,);
+            format!("Drawn from exact beams, {polarised}, index {}; {open}", beams.medium.index);
         let frame = page(DVec2::splat(f64::from(SIDE)))
             .add(Title::new(title))
             .add(Description::new().add(svg::node::Text::new(description)))

@@ -1,7 +1,8 @@
 //! The pictures that the program knows by name.
 //!
 //! To add a picture, add a variant and a row of `PictureName`; one that is no scope is a variant of `Picture` too, and the
-//! compiler asks for its arms in `crates/paper/src/export.rs` and `export/pictures.rs`. The editor shows it by
+//! compiler asks for its arms in `crates/paper/src/export.rs` and `export/pictures.rs`; look there and in `src/cli/export.rs` also at
+//! each `Picture::Scoped` that is compared. `PictureName::ALL` lists it only if it stands there. The editor shows it by
 //! a row of `crates/session/src/shows.rs` with the same key. A scope of one's own needs no code: it is a file.
 
 use brillianteer_scene::{ASET_CONE, Backing, Scope, Side, VIEWER_CONES_DEG};

@@ -65,10 +65,10 @@ impl TakenContrast {
         Layer::of_values(["contrast"], parts, self.map.unresolved)
     }
 
-    /// Returns the layer of all that is known: the contrast of each square, and its bounds unless the whole face may be dark, where
-    /// it has none.
+    /// Returns the layer of all that is known: the contrast of each square and, in a clear stone whose face cannot be all dark, its
+    /// bounds.
     pub fn values(&self) -> Layer {
-        if !self.map.whole.most.is_finite() {
+        if !self.map.whole.most.is_finite() || !self.beams.medium.is_clear() {
             return self.known();
         }
         let bounded =

@@ -66,8 +66,8 @@ pub enum Unfit {
     NotConvex(#[from] NotConvex),
     /// The scene holds metal, which exact beams, scopes, figures and refraction maps know nothing of.
     #[error(
-        "only rays in pictures under light reflect metal: trace by rays or by a graphics card, and make no scope, figures or \
-         refraction map of it"
+        "only rays in pictures under light reflect metal: trace by rays or by a graphics card, and make no scope, figures, \
+         contrast map or refraction map of it"
     )]
     Metal,
     /// A stone has frosted facets, which exact beams, graphics cards and refraction maps know nothing of.

@@ -108,7 +108,7 @@ pub const HEAD: NumberRow<Look> = NumberRow {
         Unit::Degrees,
         HEADS_DEG,
         "Half angle of the observer's head, which blocks light in the ASET, in figures and in renders. At 0 the ASET has none, \
-              and renders have that of the light.",
+              renders have that of the light, and contrast maps and measures 15°.",
         |look| look.head,
         |look, degrees| look.head = Some(degrees),
     )

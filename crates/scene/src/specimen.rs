@@ -243,7 +243,7 @@ fn scattering(stone: &Stone) -> Option<String> {
     (!names.is_empty()).then(|| {
         format!(
             "frosted facets scatter light: {}. Pictures under light show it; in figures and pictures in scopes, all light that \
-             meets them counts as unresolved; measures of light are those of the stone as if they were polished",
+             meets them counts as unresolved; measures of light and contrast maps are those of the stone as if they were polished",
             listed(&names)
         )
     })

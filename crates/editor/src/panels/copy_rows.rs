@@ -105,7 +105,7 @@ fn movement(document: &Document, actions: &mut Actions, ui: &mut Ui) {
 /// Draws nothing where no view in sight is in perspective.
 fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let (reach, workspace) = (model.reach(Shows::Render), &model.workspace);
-    if !workspace.shown().iter().any(|&pane| workspace.panes[pane].is_near) {
+    if !workspace.shown().iter().any(|&pane| workspace.is_near(pane)) {
         return;
     }
     let degrees = 2.0 * (reach / workspace.distance).atan().to_degrees();

@@ -34,7 +34,7 @@ impl Mode {
     /// Returns the modes that are on in a view.
     pub fn of(model: &Model, pane: usize) -> Vec<Self> {
         let workspace = &model.workspace;
-        let Pane { shows, own, is_near, .. } = workspace.panes[pane];
+        let Pane { shows, own, .. } = workspace.panes[pane];
         if !shows.is_seen() {
             return vec![];
         }
@@ -46,7 +46,7 @@ impl Mode {
                 let meaning = "This view has a tilt and a zoom of its own.";
                 mode("unlinked", meaning, ViewAction::Link(pane, true))
             }),
-            (is_near && shows.takes_perspective()).then(|| {
+            workspace.is_near(pane).then(|| {
                 let meaning = "The stone is seen from nearby, not along parallel rays.";
                 mode("perspective", meaning, ViewAction::EndPerspective(pane))
             }),

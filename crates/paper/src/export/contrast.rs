@@ -7,7 +7,7 @@ use super::viewing::{Viewing, note};
 use super::{OutputFormat, write_text};
 use crate::{PngFile, write_exr};
 use brillianteer_base::{Failure, Watch};
-use brillianteer_measure::PatternSettings;
+use brillianteer_measure::{PatternSettings, head_of_measures};
 use brillianteer_picture::{Caption, contrast_legend, vector};
 use brillianteer_render::{ContrastProduct, Job, Product, Renderer, TakenContrast, Unfit};
 use brillianteer_scene::Film;
@@ -17,7 +17,7 @@ impl Viewing<'_> {
     /// Returns the job of the contrast map of this stone.
     fn contrast_job(&self) -> Job {
         let product = ContrastProduct {
-            head_deg: self.head_of_measures(),
+            head_deg: head_of_measures(self.head_deg),
             pattern: PatternSettings::usual(self.specimen.unit_mm()),
             medium: self.medium,
         };
@@ -50,7 +50,7 @@ impl ContrastSheet<'_> {
 
     /// Returns the eye, the head and the stone's size, in words.
     fn eye(&self) -> String {
-        let (unit_mm, head) = (self.viewing.specimen.unit_mm(), self.viewing.head_of_measures());
+        let (unit_mm, head) = (self.viewing.specimen.unit_mm(), head_of_measures(self.viewing.head_deg));
         let (side, diameter) = (self.taken.map.side * unit_mm, 2.0 * unit_mm);
         format!("squares of {side:.3} mm on {diameter:.2} mm, even dome, head {head}°")
     }
@@ -65,7 +65,7 @@ impl ContrastSheet<'_> {
         let percent = 100.0 * self.taken.map.unresolved;
         let remarks = vec![
             format!(
-                "brightness that an eye resolves, beside that of the whole face: {}; {}",
+                "brightness beside that of the whole face: {}; {}",
                 self.eye(),
                 self.viewing.described().description()
             ),
@@ -86,38 +86,51 @@ impl Pictures<'_> {
         if let Some(why) = viewing.why_no_contrast(self.renderer) {
             return tell(Event::Note(&format!("{name}: left out: {why}")));
         }
-        let mut pace = WorkShares::new(watch, 2.0);
+        let wanted = [OutputFormat::Png, OutputFormat::Exr, OutputFormat::Svg];
+        let wanted = wanted.into_iter().filter(|format| outputs.wants(*format));
+        let mut pace = WorkShares::new(watch, 3.0 + wanted.clone().count() as f64);
         let job = viewing.contrast_job();
-        let taken = pace.step(1.0, |watch| {
+        let taken = pace.step(3.0, |watch| {
             Ok(self.renderer.run(&job, watch, &mut |part| note(&part, tell))?.contrast()?)
         })?;
         self.warn_of_open(&viewing, &job, &taken.beams)?;
         let sheet = ContrastSheet { name, viewing, taken: &taken };
-        let path = |format| outputs.path(&viewing.suffix(None), name, format);
-        pace.step(1.0, |watch| {
-            if outputs.wants(OutputFormat::Png) {
-                let path = path(OutputFormat::Png);
-                self.contrast_pixels(&sheet, &path, watch)?;
-                tell(Event::Written(&path))?;
+        for format in wanted {
+            let path = outputs.path(&viewing.suffix(None), name, format);
+            pace.step(1.0, |watch| self.write_contrast(&sheet, format, &path, watch))?;
+        }
+        Ok(())
+    }
+
+    fn write_contrast(
+        &self,
+        sheet: &ContrastSheet,
+        format: OutputFormat,
+        path: &Path,
+        watch: Watch,
+    ) -> Result<(), Failure> {
+        let ContrastSheet { viewing, taken, .. } = sheet;
+        match format {
+            OutputFormat::Png => self.contrast_pixels(sheet, path, watch)?,
+            OutputFormat::Exr => {
+                let film = viewing.film(self.outputs.size);
+                write_exr(path, &taken.values(), &film, &sheet.description(), watch)?;
             }
-            if outputs.wants(OutputFormat::Exr) {
-                let path = path(OutputFormat::Exr);
-                write_exr(&path, &taken.values(), &viewing.film(outputs.size), &sheet.description(), watch)?;
-                tell(Event::Written(&path))?;
-            }
-            if outputs.wants(OutputFormat::Svg) {
+            OutputFormat::Svg => {
                 let parts = taken.map.parts().map(|(outline, contrast)| (outline, contrast.known));
+                let parts = (parts, taken.map.side);
                 let words = (sheet.description(), sheet.whole());
                 let drawn = vector::contrast(viewing.stone()?, &taken.beams, parts, (&words.0, &words.1));
-                let drawn = if outputs.caption {
+                let drawn = if self.outputs.caption {
                     sheet.caption().under(drawn, f64::from(vector::SIDE))
                 } else {
                     drawn
                 };
-                write_text(&path(OutputFormat::Svg), &drawn.to_string(), tell)?;
+                return write_text(path, &drawn.to_string(), self.tell);
             }
-            Ok(())
-        })
+            OutputFormat::Json => return Ok(()),
+        }
+        (self.tell)(Event::Written(path))
     }
 
     fn contrast_pixels(&self, sheet: &ContrastSheet, path: &Path, watch: Watch) -> Result<(), Failure> {

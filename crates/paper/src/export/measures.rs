@@ -5,7 +5,7 @@ use super::figures::SeenFrom;
 use super::viewing::{Viewing, note};
 use brillianteer_base::{ByName, Failure, Watch};
 use brillianteer_measure::{
-    Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings, SampledNumber,
+    Interval, LightMeasures, MeasureName, MeasureSettings, PatternSettings, SampledNumber, head_of_measures,
     hemisphere_return,
 };
 use brillianteer_optics::line;
@@ -79,11 +79,6 @@ const WEIGHTED_POWER: f64 = 2.0;
 const WEIGHTED_RAYS: u32 = 50_000;
 
 impl Viewing<'_> {
-    /// Returns the half angle of the head of measures, degrees: that of the viewing, if it has one.
-    pub(super) fn head_of_measures(&self) -> f64 {
-        if self.head_deg > 0.0 { self.head_deg } else { MEASURES_HEAD_DEG }
-    }
-
     /// Returns the settings of measures of this stone under these domes, or the usual ones where there are none. The head is
     /// that of the viewing, if it has one.
     pub fn measure_settings(&self, domes: &[DomeLight]) -> MeasureSettings {
@@ -93,8 +88,11 @@ impl Viewing<'_> {
         let indices =
             [line::FRAUNHOFER_B, line::FRAUNHOFER_G].map(|nm| index(nm).unwrap_or(self.medium.index));
         let pattern = Some(PatternSettings::usual(self.specimen.unit_mm()));
-        let usual =
-            MeasureSettings { head_deg: self.head_of_measures(), pattern, ..MeasureSettings::usual(indices) };
+        let usual = MeasureSettings {
+            head_deg: head_of_measures(self.head_deg),
+            pattern,
+            ..MeasureSettings::usual(indices)
+        };
         if domes.is_empty() { usual } else { MeasureSettings { domes: domes.to_vec(), ..usual } }
     }
 }

@@ -222,13 +222,18 @@ impl Workspace {
 
     /// Returns the view of the stone in a pane: from the side that its picture is made for, if any.
     pub fn view(&self, pane: usize) -> View {
-        let Pane { shows, is_near, .. } = self.panes[pane];
-        let view = self.eye(pane).view(shows.side());
-        if is_near && shows.takes_perspective() {
+        let view = self.eye(pane).view(self.panes[pane].shows.side());
+        if self.is_near(pane) {
             View { projection: Projection::Perspective { distance: self.distance }, ..view }
         } else {
             view
         }
+    }
+
+    /// Returns whether a pane shows the stone from nearby, in perspective.
+    pub fn is_near(&self, pane: usize) -> bool {
+        let Pane { shows, is_near, .. } = self.panes[pane];
+        is_near && shows.takes_perspective()
     }
 
     /// Changes what a pane shows.

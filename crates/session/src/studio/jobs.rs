@@ -2,7 +2,7 @@
 
 use super::effort::Effort;
 use super::order::{FiguresOrder, Shot};
-use brillianteer_measure::{Bounds, MEASURES_HEAD_DEG, PatternSettings};
+use brillianteer_measure::{Bounds, PatternSettings, head_of_measures};
 use brillianteer_optics::line;
 use brillianteer_picture::{Backdrop, Scoped, filling};
 use brillianteer_render::{
@@ -117,7 +117,7 @@ impl Shot {
     /// Returns the job of a contrast map.
     pub fn contrast_job(&self, effort: &Effort) -> Job {
         let product = ContrastProduct {
-            head_deg: self.look.head.unwrap_or(MEASURES_HEAD_DEG),
+            head_deg: head_of_measures(self.look.head_of_scopes()),
             pattern: PatternSettings::usual(self.specimen.unit_mm()),
             medium: self.specimen.medium(line::SODIUM_D),
         };

@@ -5,7 +5,7 @@ use crate::liquid::Liquid;
 use crate::pixels::Pixels;
 use crate::shows::Shows;
 use brillianteer_base::{Failure, Watch};
-use brillianteer_measure::Figures;
+use brillianteer_measure::{Figures, head_of_measures};
 use brillianteer_picture::DrawnMarks;
 use brillianteer_picture::{Inks, Overlay, RefractionMap};
 use brillianteer_render::{Sweep, SweepError, SweptStone};
@@ -193,7 +193,8 @@ impl Shot {
                 Subject::Scope { stone, shows, overlay, sight: (view, film), read }
             }
             Shows::Contrast => {
-                let read = ScopeReading { strongest: false, glare: None, head: self.look.head };
+                let head = Some(head_of_measures(self.look.head_of_scopes()));
+                let read = ScopeReading { strongest: false, glare: None, head };
                 Subject::Scope { stone, shows, overlay, sight: (view, film), read }
             }
             Shows::Diagram => {

@@ -236,9 +236,9 @@ mod tests {
         let usual = shot(Shows::Contrast, None);
         let seen = pixels(&usual);
         // With no head of its own a shot has that of the measures.
-        for (head, is_same) in [(MEASURES_HEAD_DEG, true), (25.0, false)] {
+        for (head, is_same) in [(0.0, true), (MEASURES_HEAD_DEG, true), (25.0, false)] {
             let other = looking(usual.clone(), |look| look.head = Some(head));
-            assert!(other != usual && (pixels(&other) == seen) == is_same, "{head}");
+            assert_eq!((other == usual, pixels(&other) == seen), (is_same, is_same), "{head}");
         }
         let lit = looking(usual.clone(), |look| look.exposure = 1.5);
         assert!(lit == usual && Shot { strongest: true, ..usual.clone() } == usual);

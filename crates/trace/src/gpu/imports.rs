@@ -108,6 +108,7 @@ mod tests {
         assert_eq!(imports("// Imports: a, B.\nfn c() {}\n").collect::<Vec<_>>(), ["a", "B"]);
         assert!(joined(&["trace"]).contains("struct Frame {") && joined(&["trace"]).contains("fn fresnel("));
     }
+
     /// Returns the names of the structs and constants that a text declares; all of them begin with a capital.
     fn declared(text: &str) -> impl Iterator<Item = &str> {
         let names =

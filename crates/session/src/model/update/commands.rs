@@ -94,7 +94,7 @@ impl Model {
             Command::One => workspace.shown().len() == 1,
             Command::Two => workspace.shown().len() == 2,
             Command::Four => workspace.shown().len() == 4,
-            Command::Perspective => workspace.panes[self.active()].is_near,
+            Command::Perspective => workspace.is_near(self.active()),
             Command::EyeLeans => workspace.eye(self.active()).eye_leans,
             Command::Wireframe => overlay("wireframe"),
             Command::Facets => overlay("facets"),
