@@ -21,7 +21,7 @@ pub fn written(assembly: &Assembly, format: DesignFormat) -> Result<EncodedDesig
     let Assembly { path, name, scene, .. } = assembly;
     if format.holds_designs() {
         return Err(Failure::Usage(format!(
-            "{path}: this is a scene, which no .{} holds; write it as .glb, .obj, .ply or .stl",
+            "{path}: this is a scene, which is converted to .glb, .obj, .ply or .stl only, not to .{}",
             format.ending()
         )));
     }
@@ -31,7 +31,7 @@ pub fn written(assembly: &Assembly, format: DesignFormat) -> Result<EncodedDesig
             MOST_TRIANGLES / 1_000_000
         )));
     }
-    let refused = |error: &dyn std::fmt::Display| Failure::Output(format!("{}: {error}", format.ending()));
+    let refused = |error: &dyn std::fmt::Display| Failure::Output(format!("{path}: {error}"));
     let bytes = match format {
         DesignFormat::Obj => write_scene_obj(scene).into_bytes(),
         DesignFormat::Stl => write_scene_stl(scene).map_err(|error| refused(&error))?,
@@ -56,7 +56,7 @@ fn triangles(scene: &Scene) -> usize {
     let of_stone = |body: &Body| match body {
         Body::Stone(stone) => stone.polytope.facets().iter().map(|facet| facet.outline.len()).sum(),
         Body::Mesh(shell) => shell.surface().triangles.len(),
-        Body::Glass(smooth) => smooth.surface().triangles.len(),
+        Body::Glass(smooth) => smooth.field().surface(FINENESS).triangles.len(),
     };
     let stones = scene.instances.iter().map(|stone| of_stone(&stone.body));
     stones.chain(scene.metals.iter().map(|metal| metal.mesh.surface().corners.len())).sum()
@@ -183,7 +183,7 @@ mod tests {
         let error = written(&assembly("trilogy"), DesignFormat::Gem).unwrap_err().to_string();
         assert_eq!(
             error,
-            "trilogy: this is a scene, which no .gem holds; write it as .glb, .obj, .ply or .stl"
+            "trilogy: this is a scene, which is converted to .glb, .obj, .ply or .stl only, not to .gem"
         );
     }
 }

@@ -197,7 +197,7 @@ fn a_scene_is_written_as_a_mesh_of_all_its_bodies() {
     for (line, message) in [
         (
             "convert solitaire ring.asc",
-            "error: solitaire: this is a scene, which no .asc holds; write it as .glb, .obj, .ply or .stl\n",
+            "error: solitaire: this is a scene, which is converted to .glb, .obj, .ply or .stl only, not to .asc\n",
         ),
         (
             "convert --meets solitaire ring.toml",

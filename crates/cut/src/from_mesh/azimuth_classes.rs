@@ -15,8 +15,11 @@ const MOST_TURNS: usize = 24;
 const PLACE: f64 = 0.052;
 
 /// Classes are two tiers where their means differ by more than this many of the difference's standard errors, and by more than facets of
-/// one tier do. Of a thousand pairs of classes that are one tier, less than one differs by as much.
+/// one tier do. By Student's distribution of [`FREEDOM`] degrees, a pair of classes that are one tier differs by as much once in a thousand.
 const CERTAIN: f64 = 4.0;
+
+/// The fewest facets beyond the number of classes: from fewer, the spread within classes is known too badly to tell classes apart.
+const FREEDOM: usize = 16;
 
 /// The slope (radians) and the offset (girdle radii) of a facet, or their means.
 type Figures = [f64; 2];
@@ -50,7 +53,7 @@ fn mean(planes: &[Plane], places: &[usize]) -> Figures {
 
 /// Returns the standard deviations of slope and offset within classes.
 fn spread(planes: &[Plane], classes: &[Class], count: usize) -> Figures {
-    let freedom = (count - classes.len()).max(1) as f64;
+    let freedom = (count - classes.len()) as f64;
     [0, 1].map(|k| {
         let of = |class: &Class| {
             class.places.iter().map(|&p| (figures(&planes[p])[k] - class.mean[k]).powi(2)).sum::<f64>()
@@ -59,12 +62,13 @@ fn spread(planes: &[Plane], classes: &[Class], count: usize) -> Figures {
     })
 }
 
-/// Returns the classes of the largest number of turns that carry each class onto itself, the steepest first; `None` where no turn does, or
-/// where there is only one class.
+/// Returns the classes of the largest number of turns that carry several classes onto themselves, the steepest first; `None` where no turn
+/// does, or where the spread within classes is not known well.
 fn classes(planes: &[Plane], tier: &[usize]) -> Option<Vec<Class>> {
     let turns = (2..=MOST_TURNS).rev().filter(|turns| tier.len().is_multiple_of(*turns));
-    let places = turns.into_iter().find_map(|turns| orbits(planes, tier, turns))?;
-    if places.len() < 2 {
+    let mut orbits = turns.filter_map(|turns| orbits(planes, tier, turns));
+    let places = orbits.find(|places| places.len() > 1)?;
+    if tier.len() < places.len() + FREEDOM {
         return None;
     }
     let class = |places: Vec<usize>| Class { mean: mean(planes, &places), places };
@@ -125,6 +129,12 @@ mod tests {
         let counts: Vec<usize> = found.iter().map(Vec::len).collect();
         assert!(counts == [16, 8] && found[1].iter().all(|place| *place < 8), "{found:?}");
         assert_eq!(divided(&pavilion(40.75, 0.698), &all, SAME).len(), 1);
+        // Classes that are evenly spaced together.
+        let even = |slope_deg: f64, start: f64| {
+            (0..12).map(move |k| facet(slope_deg + 0.05 * f64::from(k % 3), start + 30.0 * f64::from(k), 0.7))
+        };
+        let planes: Vec<Plane> = even(139.2, 0.0).chain(even(138.2, 15.0)).collect();
+        assert_eq!(divided(&planes, &all, SAME).len(), 2);
         // One slope at two depths.
         assert_eq!(divided(&pavilion(40.75, 0.71), &all, SAME).len(), 2);
     }

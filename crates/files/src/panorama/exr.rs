@@ -42,10 +42,14 @@ fn check_sampling(headers: &[Header]) -> Result<(), Fault> {
     let Some(first) = channels().find(|channel| is_sparse(channel.sampling)) else { return Ok(()) };
     let Vec2(across, down) = first.sampling;
     let others = channels().filter(|channel| is_sparse(channel.sampling)).count() - 1;
-    let others = if others > 0 { format!(", and {others} more channels like it") } else { String::new() };
+    let others = match others {
+        0 => String::new(),
+        1 => ", and 1 more channel has too few".to_owned(),
+        _ => format!(", and {others} more channels have too few"),
+    };
     let name = first.name.to_string();
     Err(Fault::whole(format!(
-        "its channel '{name:.60}' has one sample for {across} by {down} pixels{others}, which is not read; save it as RGB, with all \
+        "its channel '{name:.60}' has one sample for {across} by {down} pixels{others}: such channels are not read; save it as RGB, with all \
          channels of full size"
     )))
 }

@@ -399,10 +399,10 @@ fn colours_and_factors_of_radiance_are_those_that_its_header_states() {
 fn an_exr_with_sparse_channels_is_refused_by_the_name_of_the_first() {
     let folder = tempfile::tempdir().unwrap();
     for (width, sparse, named) in [
-        (64, &b"B"[..], "channel 'B' has one sample for 2 by 2 pixels, which"),
-        (64, b"BR", "channel 'B' has one sample for 2 by 2 pixels, and 1 more channels like it, which"),
+        (64, &b"B"[..], "channel 'B' has one sample for 2 by 2 pixels: such"),
+        (64, b"BR", "channel 'B' has one sample for 2 by 2 pixels, and 1 more channel has too few:"),
         // The decoder takes such a picture for a damaged one.
-        (63, b"A", "channel 'A' has one sample for 2 by 2 pixels, which"),
+        (63, b"A", "channel 'A' has one sample for 2 by 2 pixels: such"),
     ] {
         let mut file = exr_file(&folder, width, 32);
         for name in sparse {

@@ -7,18 +7,15 @@
 //! 2. a surface with many corners is taken for a scan: planes are fitted to corners whose noise is estimated first (`scan`);
 //! 3. a model with few corners is searched as in the first step, at growing tolerances. Planes that cut the hull of the
 //!    corners are left out, and each triangle is assigned to the facet that it lies on (`settle`);
-//! 4. the planes are sought on which all corners lie, where triangles across edges have made facets or dents of a surface without noise
-//!    (`cover`);
-//! 5. the hull itself is taken, if the surface is meant to be its hull (`hull`).
+//! 4. the hull itself is taken, if the surface is meant to be its hull (`hull`).
 //!
-//! What the third and the last find in a surface that noise bends, or whose corners lie off the facets by more than noise, is refused where noise or
+//! What the last two find in a surface that noise bends, or whose corners lie off the facets by more than noise, is refused where noise or
 //! triangles across edges may have made the facets, and else called uncertain (`noisy`).
 //!
 //! Where the solid differs from the surface, `change` measures the differences. Lengths are in the surface's unit;
 //! tolerances are parts of [`Surface::size`].
 
 mod change;
-mod cover;
 mod deviation;
 mod fit;
 mod hull;
@@ -98,10 +95,6 @@ pub fn facets(surface: Surface) -> SurfaceKind {
     let (moved, centre) = centred(&surface);
     let search = SolidSearch::of(&moved);
     let exact = search.exact().map(|solid| (trust(&moved, &solid, false), solid));
-    let trusted = exact.as_ref().filter(|(trust, _)| *trust == Trust::Known).map(|(_, solid)| solid);
-    if let Some(solid) = cover::covering(&moved, &search.edges, trusted) {
-        return SurfaceKind::Convex(Box::new(faceted(moved, centre, solid, true)));
-    }
     let is_changed = exact.is_none();
     let meant = || search.meant().map(|solid| (trust(&moved, &solid, true), solid));
     match exact.or_else(meant) {

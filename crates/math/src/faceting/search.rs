@@ -66,7 +66,7 @@ pub(super) struct MatchingSolid {
 /// A surface with its centre at the origin, and the data that the search for its solid needs.
 pub(super) struct SolidSearch<'a> {
     surface: &'a Surface,
-    pub edges: Edges,
+    edges: Edges,
     /// The hull of the corners, computed at first use, since most surfaces do not need it; `None` where all corners
     /// lie in one plane.
     hull: OnceCell<Option<Hull>>,

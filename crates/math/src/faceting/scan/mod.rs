@@ -30,7 +30,6 @@ use growth::grown;
 use members::{Members, noises};
 use patches::ScanCorners;
 use points::PlaneEstimate;
-pub(super) use rounding::steps;
 
 /// The fewest corners of a surface that can be a scan.
 pub(super) const FEWEST: usize = 200;

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 const MULTIPLE: f64 = 0.02;
 
 /// Returns the steps to which the coordinates were rounded, along each axis; 0 where none is found.
-pub(in crate::faceting) fn steps(at: &[DVec3]) -> DVec3 {
+pub(super) fn steps(at: &[DVec3]) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| step(at.iter().map(|v| v[axis]).collect())))
 }
 
