@@ -236,7 +236,7 @@ fn what_cannot_be_measured_is_refused_by_name() {
     let cases = [
         (
             MeasureOptions { head_deg: 90.0, ..MeasureOptions::default() },
-            "head_deg is 90; give 0 to below 90 degrees",
+            "head_deg is 90; give 0 to 89 degrees",
         ),
         (MeasureOptions { index: Some(0.5), ..MeasureOptions::default() }, "index is 0.5; give 1 (air) to 6"),
         (MeasureOptions { wavelength_nm: f64::NAN, ..MeasureOptions::default() }, "wavelength_nm is NaN"),
