@@ -223,7 +223,7 @@ fn a_stone_of_planes_is_taken_with_its_own_names_in_every_command() {
     let names: Vec<&Value> = list(&info["facets"]).iter().map(|f| &f["name"]).collect();
     assert_eq!(names, ["side 1", "side 2", "side 3", "side 4", "side 5", "side 6"]);
     assert!(desk.done("info cube.toml").contains("8.000000"));
-    assert_eq!(desk.done("export cube.toml --size 32 --out deep/er").lines().count(), 7 * 4 + 2 * 2 + 1);
+    assert_eq!(desk.done("export cube.toml --size 32 --out deep/er").lines().count(), 7 * 4 + 2 + 2 * 2 + 1);
 }
 
 #[test]

@@ -223,6 +223,67 @@ fn the_drawn_map_of_strongest_exits_has_no_overlaps_and_the_areas_measured_and_n
 }
 
 #[test]
+fn a_contrast_map_holds_the_contrast_that_is_measured_and_dark_squares_are_blue() {
+    let desk = Desk::new();
+    let measured = desk.json("measure tolkowsky --measures --json");
+    let [least, most] = ["least", "most"].map(|end| at(&measured, &format!("measures/eye-contrast/{end}")));
+    for (k, view) in ["", "--stone 100mm"].into_iter().enumerate() {
+        let export =
+            format!("export tolkowsky --views contrast --size 200 --format png,exr,svg --out {k} {view}");
+        let made = desk.done(&export);
+        let path = |ending: &str| {
+            let made = made.lines().find(|line| line.ends_with(ending));
+            desk.at(made.unwrap_or_else(|| panic!("no {ending}")))
+        };
+        let light = exr(&path(".exr"));
+        let sum = |name: &str| light[name].iter().sum::<f64>();
+        assert!(sum("contrast").abs() < 1e-4 * sum("cover"), "{view}: {}", sum("contrast"));
+        let is_between = |i: usize| {
+            let [low, known, high] = ["least", "contrast", "most"].map(|name| light[name][i]);
+            low <= known + 1e-6 && known <= high + 1e-6
+        };
+        assert!((0..200 * 200).all(is_between), "{view}");
+        let (_, pixels, description) = png(&path(".png"));
+        for (i, colour) in pixels.iter().enumerate().filter(|(i, _)| light["cover"][*i] > 0.999) {
+            let contrast = light["contrast"][i];
+            assert!(
+                contrast.abs() < 0.1 || (colour.x > colour.z) == (contrast > 0.0),
+                "{contrast}: {colour}"
+            );
+        }
+        let document = std::fs::read_to_string(path(".svg")).unwrap();
+        let document = Document::parse(&document).unwrap();
+        let (mut area, mut square) = (0.0, 0.0);
+        for path in document.descendants().filter(|n| n.has_tag_name("path")) {
+            let contrast: f64 = path.attribute("data-contrast").unwrap().parse().unwrap();
+            for outline in path.attribute("d").unwrap().split('Z').filter(|part| !part.is_empty()) {
+                let corners: Vec<DVec2> = outline[1..]
+                    .split('L')
+                    .map(|corner| numbers(corner))
+                    .map(|corner| DVec2::new(corner[0], corner[1]))
+                    .collect();
+                area += turns(&corners).abs();
+                square += turns(&corners).abs() * contrast * contrast;
+            }
+        }
+        let drawn = (square / area).sqrt();
+        assert!(k == 1 || (least - 0.01..most + 0.01).contains(&drawn), "{drawn}: {least} to {most}");
+        let told: Vec<f64> = description
+            .split("contrast of the face ")
+            .nth(1)
+            .unwrap()
+            .split("; ")
+            .next()
+            .unwrap()
+            .split(" ± ")
+            .map(|number| number.parse().unwrap())
+            .collect();
+        assert!((drawn - told[0]).abs() < told[1] + 0.01, "{drawn}: {description}");
+    }
+    assert!(desk.refused("export heart --views contrast --out -", 2).contains("none of the pictures"));
+}
+
+#[test]
 fn an_aset_is_red_where_graders_are_taught_red_and_says_what_it_leaves_out() {
     let desk = Desk::new();
     let export = "export modern-ideal --views aset --size 160 --unresolved 0.005 --format png,svg --out";

@@ -71,7 +71,7 @@ fn a_dash_is_standard_output_where_one_file_is_written_and_refused_where_several
     for (line, why) in [
         (
             "export cube.toml --out -",
-            "19 would be written (cube-aset.png, cube-aset.svg, cube-aset-white.png, and 16 more)",
+            "21 would be written (cube-aset.png, cube-aset.svg, cube-aset-white.png, and 18 more)",
         ),
         (
             "export cube.toml --views aset,hearts --format png --out -",
