@@ -71,6 +71,6 @@ fn what_may_be_exported() {
         panic!()
     };
     export.plan.folder = "/home/me/stones/out".into();
-    bench.wait(|editor| editor.thumbnails.len() == 9);
+    bench.wait(|editor| editor.thumbnails.len() == 10);
     compare(&mut bench, "export");
 }
