@@ -113,7 +113,7 @@ impl<V: Value> Rows<V> {
                 let beside = if right > 0.0 { per_pixel * -left } else { change };
                 deposit(line, 0.0, 0.0, beside);
             }
-            if right > 0.0 {
+            if right > 0.0 || left >= 0.0 {
                 let inside = if left < 0.0 || right > width { per_pixel * (end - start) } else { change };
                 deposit(line, start, end, inside);
             }
