@@ -259,7 +259,7 @@ fn a_contrast_map_holds_the_contrast_that_is_measured_and_dark_squares_are_blue(
             for outline in path.attribute("d").unwrap().split('Z').filter(|part| !part.is_empty()) {
                 let corners: Vec<DVec2> = outline[1..]
                     .split('L')
-                    .map(|corner| numbers(corner))
+                    .map(numbers)
                     .map(|corner| DVec2::new(corner[0], corner[1]))
                     .collect();
                 area += turns(&corners).abs();
