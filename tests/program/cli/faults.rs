@@ -161,7 +161,11 @@ fn measures_of_a_frosted_stone_are_those_of_the_polished_one_with_a_warning() {
     assert_eq!((code, lines.len()), (0, 2), "{stderr}");
     assert_eq!(lines[0]["measures"], lines[1]["measures"]);
     assert_eq!((&lines[0]["as_polished"], &lines[1]["as_polished"]), (&Value::Null, &json!(true)));
-    assert!(stderr.contains("measures of light are those of the stone as if they were polished"), "{stderr}");
+    assert!(
+        stderr
+            .contains("measures of light and contrast maps are those of the stone as if they were polished"),
+        "{stderr}"
+    );
     let swept =
         desk.run("sweep frosted.asc plain.asc --over index=1.6,1.7 --of return-even --unresolved 0.2");
     let rows: Vec<&str> = swept.1.lines().skip(1).map(|line| line.split_once(',').unwrap().1).collect();
