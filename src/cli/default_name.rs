@@ -1,7 +1,6 @@
 //! The part of a default file name that tells apart what the command line shows otherwise than by default: the material,
 //! the light, and whatever else is set.
 
-use brillianteer_math::rounded;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command};
 use std::ffi::OsStr;
@@ -78,24 +77,12 @@ fn part(arg: &Arg, matches: &ArgMatches) -> Option<String> {
     Some(name + &values.collect::<String>())
 }
 
-/// The most decimals of a number in a name; a change of more distant ones is not seen.
-const MOST_DECIMALS: usize = 4;
-
-/// Returns a number as part of a file's name: as it is written, but for more than [`MOST_DECIMALS`], with which scripts give
-/// numbers. One that would be 0 by that stays as it is.
-fn number_part(text: &str, number: f64) -> String {
-    let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let short = rounded(number, MOST_DECIMALS);
-    let is_short = decimals <= MOST_DECIMALS || short.parse() == Ok(0.0);
-    if is_short { text.to_owned() } else { short }
-}
-
-/// Returns a value as part of a file's name: a number as [`number_part`] does, a file by its name without folder and ending, and of anything
+/// Returns a value as part of a file's name: a number as it is, a file by its name without folder and ending, and of anything
 /// else the letters and digits, with a dash for what stands between them.
 fn value_part(value: &OsStr) -> String {
     let text = value.to_string_lossy();
-    if let Ok(number) = text.parse::<f64>() {
-        return number_part(&text, number);
+    if text.parse::<f64>().is_ok() {
+        return text.into_owned();
     }
     let path = Path::new(value);
     let name = path.file_stem().filter(|_| path.is_file()).unwrap_or(value).to_string_lossy();
