@@ -15,7 +15,8 @@ const MOST_TURNS: usize = 24;
 const PLACE: f64 = 0.052;
 
 /// Classes are two tiers where their means differ by more than this many of the difference's standard errors, and by more than facets of
-/// one tier do. By Student's distribution of [`FREEDOM`] degrees, a pair of classes that are one tier differs by as much once in a thousand.
+/// one tier do. By Student's distribution with [`FREEDOM`] degrees of freedom, the slopes of two classes of one tier differ by as much once
+/// in a thousand, and so do their offsets.
 const CERTAIN: f64 = 4.0;
 
 /// The fewest facets beyond the number of classes: from fewer, the spread within classes is known too badly to tell classes apart.

@@ -1,19 +1,12 @@
 //! Compares the stone that was read with the mesh itself: what noise does not explain is told.
 
 use brillianteer_cut::from_mesh::FromMesh;
-use brillianteer_math::faceting::Faceted;
+use brillianteer_math::faceting::{Faceted, SWOLLEN};
 use brillianteer_math::{at_most, signed};
 
-/// The least departure of the volume that is told, as a part: 0.05 ct of a stone of 50 ct, and more than noise leaves in any scan of the
-/// table in docs/formats.md.
+/// The least departure of the volume that is told, as a part: a point of a carat (0.01 ct) in a stone of 10 carats. It is more than
+/// noise leaves in any scan of the table in docs/formats.md.
 const VOLUME: f64 = 1e-3;
-
-/// The corners of a solid that reproduces a surface lie within this many tolerances of it, and so does the whole surface.
-const SAME: f64 = 3.0;
-
-/// The greatest change of the volume where a mesh is read as the convex stone around its corners although that was not asked for; where
-/// it was, a larger one is a warning.
-const MEANT: f64 = 0.03;
 
 /// Corners of a scan lie within this many tolerances (12 standard deviations of the noise) of its facets: of a million, noise moves none by
 /// more than 5, and it may be twice as large in one direction as in the mean of all.
@@ -33,8 +26,7 @@ pub(super) enum Departure {
 pub(super) fn departure(found: &Faceted, made: &FromMesh) -> Option<Departure> {
     let is_scan = found.faces.iter().any(|face| face.error.is_some());
     let told = found.change.map_or(0.0, |change| change.volume);
-    let noise = SAME * found.tolerance * found.surface.area() / found.surface.volume();
-    let is_swollen = (made.volume_excess - told).abs() > VOLUME + noise;
+    let is_swollen = (made.volume_excess - told).abs() > VOLUME + found.volume_of_tolerance();
     let farthest = (FARTHEST * found.tolerance).max(ROUNDING * found.surface.size());
     let is_far = is_scan && made.deviation > made.pose.scale * farthest;
     let volume = format!("{} %", signed(100.0 * made.volume_excess, 3));
@@ -53,7 +45,8 @@ pub(super) fn departure(found: &Faceted, made: &FromMesh) -> Option<Departure> {
             "the stone departs from its mesh by more than the noise that was found: {figures}; a chip, dust or a hidden facet may be the \
              cause: compare it with the mesh read as triangles"
         )))
-    } else if told > MEANT {
+    } else if told > SWOLLEN {
+        // A mesh that changes by less is read so without being asked, and a note tells the change.
         let facets = found.faces.len();
         Some(Departure::Warning(format!(
             "the convex stone around the mesh, of {facets} facets, is another shape than the mesh: {figures}; read as triangles the mesh \

@@ -96,7 +96,11 @@ proptest! {
         };
         let bvh = Bvh::new(&vertices, &triangles).with_normals(normal);
         let found = |side: FromSide| bvh.nearest_from(side, origin, direction, after);
-        let (side, other, sign) = if is_inside {(FromSide::Inside, FromSide::Outside, 1.0)} else {(FromSide::Outside, FromSide::Inside, -1.0)};
+        let (side, other, sign) = if is_inside {
+            (FromSide::Inside, FromSide::Outside, 1.0)
+        } else {
+            (FromSide::Outside, FromSide::Inside, -1.0)
+        };
         let expected = bvh.nearest(origin, direction, after, |k| sign * normal(k).dot(direction) > 0.0);
         prop_assert_eq!(found(side), expected);
         // The other side gives another triangle, or none.

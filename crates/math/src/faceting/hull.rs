@@ -17,7 +17,7 @@ const NEAR: f64 = 1e-3;
 
 /// The greatest additional volume of the hull, as a part of the surface's volume, at which a surface may be meant to
 /// be its hull. The bent kites of a stone that most demos load give 1.4 %.
-const SWOLLEN: f64 = 0.03;
+pub const SWOLLEN: f64 = 0.03;
 
 /// The greatest depth of a point of the surface below the hull, as a part of the size, at which a surface may be
 /// meant to be its hull.

@@ -35,11 +35,12 @@ pub use change::Change;
 pub use deviation::deviation;
 use glam::DVec3;
 use hull::Hull;
+pub use hull::SWOLLEN;
 pub use noisy::{MODELLED, Unfaceted};
 use noisy::{Trust, is_noisy, trust};
 pub use plane_error::PlaneError;
 use regions::{NOWHERE, Regions};
-use search::{MOST_FACETS, MatchingSolid, SolidSearch};
+use search::{MOST_FACETS, MatchingSolid, SAME, SolidSearch};
 
 /// A region and a group of the file are the same facet if they share this part of the area of each.
 const ONE: f64 = 0.99;
@@ -79,6 +80,13 @@ pub struct Faceted {
     pub change: Option<Change>,
     /// Whether noise bends the surface, and it has too few corners to tell which of the facets are true, and how well they are known.
     pub is_uncertain: bool,
+}
+
+impl Faceted {
+    /// Returns the greatest part of the surface's volume by which the solid may differ from it for the tolerance alone.
+    pub fn volume_of_tolerance(&self) -> f64 {
+        SAME * self.tolerance * self.surface.area() / self.surface.volume()
+    }
 }
 
 /// The kind of solid that a closed surface represents.
